@@ -22,6 +22,8 @@ use std::ops::Range;
 pub enum Engine {
     /// Exact coverage by integers, depth and colour in f64
     Golden,
+    /// Golden's picture of an opaque frame by scan lines: one active list of all edges, no depth buffer, each pixel shaded once
+    Scanline,
     /// The machine's pictures and cycles without ticking; ticks where that is not exact, and says so
     Fast,
     /// The machine, cycle by cycle, with counts of hazards and corners
@@ -41,10 +43,11 @@ pub fn draw_waiting(
     quiet: bool,
 ) -> Result<Raster> {
     match engine {
-        Engine::Golden if waits != Waits::Never => Err(anyhow!(
+        Engine::Golden | Engine::Scanline if waits != Waits::Never => Err(anyhow!(
             "--stalls {waits}: the golden picture has no memory that stalls; draw with --engine fast"
         )),
         Engine::Golden => Ok(draw::golden(frame, machine)),
+        Engine::Scanline => draw::scan_lines(frame, machine),
         _ => draw_port(engine, &to_port(frame, machine)?, machine, waits, quiet),
     }
 }
@@ -67,7 +70,7 @@ pub fn draw_port(
             "--stalls {waits}: the netlist, --engine rtl or jit, has a memory that is always ready; draw with --engine fast"
         ));
     }
-    if matches!(engine, Engine::Fast | Engine::Golden) {
+    if matches!(engine, Engine::Fast | Engine::Golden | Engine::Scanline) {
         return Ok(of_port(draw::draw_frame(machine, port, waits)?.raster(machine), port));
     }
     let (triangles, passes, maps) = port.sent();
@@ -144,7 +147,9 @@ pub fn draw_bands(
             let port = to_port(frame, machine)?;
             draw::in_bands(machine, &port, Waits::Never, lines(machine.width, FAST_BAND), take)
         }
-        Engine::Model | Engine::Rtl | Engine::Jit => take(draw(engine, frame, machine, quiet)?),
+        Engine::Scanline | Engine::Model | Engine::Rtl | Engine::Jit => {
+            take(draw(engine, frame, machine, quiet)?)
+        }
     }
 }
 

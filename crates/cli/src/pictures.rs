@@ -76,6 +76,7 @@ pub fn pictures(
         (Some(drawn), _) => take(drawn),
         (None, Engine::Fast) => draw::in_bands(machine, &port, waits, lines, take),
         (None, Engine::Golden) => take(draw::golden(frame, machine)),
+        (None, Engine::Scanline) => take(draw::scan_lines(frame, machine)?),
         (None, engine) => take(draw_port(engine, &port, machine, waits, quiet)?),
     };
     let comparison = beside(machine, frame, proved, pass, &mut show)?;

@@ -220,7 +220,7 @@ impl<F: FnMut(Step)> Pen<'_, F> {
 }
 
 /// What the cleared depth is: one vertex at depth 1, whatever the pixel.
-const CLEARED: Fragment<1> = Fragment {
+pub(crate) const CLEARED: Fragment<1> = Fragment {
     x: 0,
     y: 0,
     vertices: &[Vertex { x: 0.0, y: 0.0, z: 1.0, r: 0.0, g: 0.0, b: 0.0, kt: 0.0, extra: [0.0; MAX_EXTRA] }],

@@ -17,6 +17,7 @@ mod polygon_triangles;
 mod polygon_values;
 mod rays;
 mod render;
+mod scanline;
 mod shading;
 mod shadow;
 mod shadow_maps;

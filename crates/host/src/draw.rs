@@ -2,7 +2,7 @@
 
 use crate::port::{PortFrame, of_port, to_port};
 use crate::raster::{LightPass, Raster, from_fast, from_golden, golden_fill};
-use anyhow::Result;
+use anyhow::{Result, anyhow};
 use edgewalk_machine::{Plan, PortVertex};
 use edgewalk_model::fast::{Path, Reason, Refusal, Renderer};
 use edgewalk_model::{DrawState, Frame, Shading, Waits, render, render_passes};
@@ -12,6 +12,25 @@ use std::ops::Range;
 #[must_use]
 pub fn golden(frame: &edgewalk_scene::Frame, machine: &Plan) -> Raster {
     Raster { host: frame.host, ..from_golden(edgewalk_golden::draw(frame, golden_fill(machine)), machine) }
+}
+
+/// Golden's picture of an opaque frame, by one active list of all edges.
+///
+/// # Errors
+/// The machine's fill is not exact, or the frame is not opaque.
+pub fn scan_lines(frame: &edgewalk_scene::Frame, machine: &Plan) -> Result<Raster> {
+    let edgewalk_golden::Fill::Exact { subpixel_bits } = golden_fill(machine) else {
+        return Err(anyhow!(
+            "--engine scanline: edge.fill = textbook: permitted: exact; draw with --engine golden, or --set edge.fill=exact"
+        ));
+    };
+    let drawn = edgewalk_golden::scan_lines(frame, subpixel_bits);
+    let (picture, _) = drawn.map_err(|why| {
+        anyhow!(
+            "--engine scanline: {why}: permitted: opaque surfaces under one rule, depth less or lequal; draw with --engine golden"
+        )
+    })?;
+    Ok(Raster { host: frame.host, ..from_golden(picture, machine) })
 }
 
 /// The machine's picture and cycles, without ticking where that is exact.

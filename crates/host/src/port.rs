@@ -185,7 +185,7 @@ pub fn to_port(frame: &Frame, machine: &Plan) -> Result<PortFrame> {
 /// The frame is shaded at each pixel, and the machine cannot do so.
 pub fn draw_state(frame: &Frame, state: &State, machine: &Plan) -> Result<DrawState> {
     shading_for(frame, machine)?;
-    let max = machine.color.max() as f64;
+    let max = machine.stored_color().max() as f64;
     Ok(DrawState {
         depth_func: state.depth.unwrap_or(DepthFunc::Always) as u8,
         depth_write: state.stores_depth(),

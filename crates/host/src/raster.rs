@@ -158,7 +158,7 @@ pub fn from_machine(machine: &Plan, drawn: edgewalk_model::Frame) -> Raster {
         writes: drawn.writes,
         id: drawn.id,
         z: unorm(&drawn.z, machine.z.max()),
-        rgb: drawn.rgb.iter().map(|c| c.map(|v| v as f64 / machine.color.max() as f64)).collect(),
+        rgb: drawn.rgb.iter().map(|c| c.map(|v| v as f64 / machine.stored_color().max() as f64)).collect(),
         extra: drawn.extra.into_iter().map(Values::Stored).collect(),
         lit: (!drawn.lit.is_empty()).then_some(drawn.lit),
         host: Host::default(),

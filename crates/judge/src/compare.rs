@@ -171,6 +171,9 @@ impl<'a> Bands<'a> {
                 }
                 if agrees {
                     tally.triangle(i, golden.z[i], &over, drawn);
+                    if light.is_none() && allowed.is_none() {
+                        tally.on_pattern(i, first + i, over.rgb, drawn);
+                    }
                 } else {
                     tally.depth(i, golden.z[i], drawn); // the colour is another
                 }
@@ -220,7 +223,9 @@ impl<'a> Bands<'a> {
             c.errors.color.bounded_elsewhere("each triangle has that of its terms and tables");
         }
         if let Some(light) = light {
-            c.errors.color.bound = c.errors.color.bound.map(|bound| light.color_bound(bound));
+            // The step of DITHER comes behind the gate.
+            let step = machine.dither_step();
+            c.errors.color.bound = c.errors.color.bound.map(|bound| light.color_bound(bound - step) + step);
             c.lit = Some(light.found());
         }
         c
@@ -276,8 +281,9 @@ fn blended(
 impl Comparison {
     /// What all pixels together come to.
     fn of(machine: &Plan, counts: Counts, tally: Tally) -> Self {
+        let off_pattern = machine.dither.rounds().then_some(tally.off_pattern);
         Comparison {
-            counts: Counts { wrapped: tally.wrapped, ..counts },
+            counts: Counts { wrapped: tally.wrapped, off_pattern, ..counts },
             errors: DepthAndColor { additions: None, z: tally.z.found(), color: tally.color.found() },
             blended: None,
             lit: None,
@@ -298,7 +304,7 @@ impl Comparison {
         self.errors.additions = Some(reach.steps.total());
         self.errors.z.bound_for_input = reach.bound(machine, &channels[0]);
         // Under a light the gate's part comes on top of it; what is shaded has its own.
-        let color = reach.bound(machine, &channels[1]);
+        let color = reach.bound(machine, &channels[1]).map(|bound| bound + machine.dither_step());
         self.errors.color.bound_for_input = color.filter(|_| self.lit.is_none() && self.shaded.is_none());
         for (own, channel) in self.extra.iter_mut().zip(extra::channels(machine)) {
             own.bound_for_input = reach.bound(machine, channel);

@@ -95,6 +95,8 @@ pub(crate) struct Allowed<'a> {
     phong: HashMap<usize, [f64; 3]>,
     /// Pixels of a line.
     width: usize,
+    /// The step of DITHER, LSB.
+    step: f64,
     found: Shaded,
 }
 
@@ -132,8 +134,8 @@ impl<'a> Allowed<'a> {
                 }
             });
         }
-        let width = frame.width as usize;
-        Self { proof, branches, phong, width, found: Shaded { texels: looked, ..Shaded::default() } }
+        let (width, step) = (frame.width as usize, machine.dither_step());
+        Self { proof, branches, phong, width, step, found: Shaded { texels: looked, ..Shaded::default() } }
     }
 
     /// What pixel `at`, which shows triangle `id`, should be: golden's colour there, or that of the horizon's other side if the
@@ -145,7 +147,7 @@ impl<'a> Allowed<'a> {
         let list = self.branches.get(&at).map_or(&alone[..], Vec::as_slice);
         // It is never empty.
         let nearest = list.iter().copied().min_by(|a, b| off(a).total_cmp(&off(b))).unwrap_or(golden);
-        let bound = usize::try_from(id).map_or(0.0, |id| self.proof.bounds[id]);
+        let bound = usize::try_from(id).map_or(0.0, |id| self.proof.bounds[id] + self.step);
         let (error, found) = (off(&nearest), &mut self.found);
         found.pixels += 1;
         found.error = found.error.max(error);

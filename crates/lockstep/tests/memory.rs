@@ -175,7 +175,8 @@ fn frame(plan: &Plan, sim: &Simulator, pixel: impl Fn(u32) -> Vec<u32>) -> u64 {
     let mut compared = 0;
     for (addr, color) in words("frame").iter().enumerate() {
         let rgb = &pixel(addr as u32)[1..4];
-        let packed = rgb.iter().fold(0, |word, value| (word << plan.color.bits) | u128::from(*value));
+        let packed =
+            rgb.iter().fold(0, |word, value| (word << plan.stored_color().bits) | u128::from(*value));
         assert_eq!(*color, packed, "colour at {addr}");
         compared += 1;
     }
@@ -193,7 +194,9 @@ fn random_write<const C: usize>(plan: &Plan, words: u32, rng: &mut Pcg64Mcg) -> 
     let z_en = plan.blend.is_there() || rng.random();
     let mut write = Write { addr: rng.random_range(0..words), z_en, ..Write::default() };
     for (value, channel) in write.values.iter_mut().zip(plan.channels()) {
-        *value = rng.random_range(0..=channel.max()) as u32; // at most 32 bits
+        let is_color = ["r", "g", "b"].contains(&channel.name);
+        let most = if is_color { plan.stored_color().max() } else { channel.max() };
+        *value = rng.random_range(0..=most) as u32; // at most 32 bits
     }
     write
 }

@@ -1,6 +1,7 @@
 //! BLEND: its keys.
 
 use crate::channel::Precision;
+use crate::dither;
 use crate::key::Domain::{OneOf, Range};
 use crate::key::{Domain, Key, number, word};
 use crate::machine::{Hazard, Machine};
@@ -89,7 +90,13 @@ pub const KEYS: &[Key] = &[
             blend.kind
         )
     },
-    number!("blend.kt_bits", Range(4, 12), "bits of k_t below 1; 1 is exact", blend.kt_bits, if there),
+    number!(
+        "blend.kt_bits",
+        Range(4, 12),
+        "bits of k_t below 1; 1 is exact",
+        blend.kt_bits,
+        if |machine| there(machine) || dither::drops(machine)
+    ),
     number!(
         "blend.kt_fraction",
         Range(0, 24),

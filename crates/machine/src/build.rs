@@ -1,6 +1,5 @@
 //! Builds the checked machine from its keys and from what its units declare.
 
-use crate::blend::BlendKind;
 use crate::channel::Channel;
 use crate::check::check;
 use crate::error::MachineError;
@@ -24,7 +23,7 @@ impl Machine {
         let others = UNITS.iter().filter(|unit| unit.name != "depth").flat_map(|unit| (unit.wants)(self));
         let channels: Vec<Channel> = depth.chain(units::memory::wants(self)).chain(others).collect();
         check(self, &channels)?;
-        let kt_bits = if self.blend.kind == BlendKind::Constant { self.blend.kt_bits } else { 0 };
+        let kt_bits = if self.has_triangle_kt() { self.blend.kt_bits } else { 0 };
         let port = PortStamp::of(self.guard_bits, self.subpixel_bits, &channels, kt_bits);
         let terms = terms(self);
         Ok(Plan { machine: self.clone(), channels, terms, widths: self.widths(), port })

@@ -52,6 +52,7 @@ pub(crate) fn check(machine: &Machine, channels: &[Channel]) -> Result<(), Machi
     if machine.shadow.draws_map() {
         own_pass(machine)?;
     }
+    dither(machine)?;
     if channels.len() > MAX_CHANNELS {
         if machine.extra == 0 {
             return Err(MachineError::rule(
@@ -182,6 +183,26 @@ fn formats(machine: &Machine, channel: &Channel) -> Result<(), MachineError> {
             format!("a word of {} bits has no {} segments of two bits", channel.word(), machine.segments),
             "1".to_owned(),
         ));
+    }
+    Ok(())
+}
+
+/// DITHER leaves fewer bits than there are, and what it leaves is not blended; a fragment is dropped in pictures only.
+fn dither(machine: &Machine) -> Result<(), MachineError> {
+    let (bits, color) = (machine.dither.bits, machine.color.bits);
+    if machine.dither.is_there() && machine.blend.is_there() {
+        let reason = "with DITHER colours are not read back: they would be rounded once more for each layer"
+            .to_owned();
+        return Err(MachineError::rule(machine, "blend.kind", reason, "none".to_owned()));
+    }
+    if machine.dither.rounds() && bits >= color {
+        let reason = format!("colours have {color} bits (formats.color_bits), and DITHER leaves fewer");
+        let fewer = (4..color.min(8)).next_back().unwrap_or(0);
+        return Err(MachineError::rule(machine, "dither.bits", reason, fewer.to_string()));
+    }
+    if machine.dither.drops() && machine.shadow.draws_map() {
+        let reason = "with shadow.own_pass = yes DITHER would drop fragments of the light's pass by the pattern of the picture";
+        return Err(MachineError::rule(machine, "dither.screen_door", reason.to_owned(), "no".to_owned()));
     }
     Ok(())
 }

@@ -2,15 +2,16 @@
 //! messages, hashes and random machines.
 
 use crate::key::Key;
-use crate::{blend, extra, machine, shade, shadow};
+use crate::{blend, dither, extra, machine, shade, shadow};
 
-const PARTS: [&[Key]; 8] = [
+const PARTS: [&[Key]; 9] = [
     machine::FRONT,
     extra::KEYS,
     machine::PIXEL,
     shade::KEYS,
     machine::DEPTH,
     shadow::KEYS,
+    dither::KEYS,
     blend::KEYS,
     machine::TAG,
 ];

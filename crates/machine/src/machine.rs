@@ -4,8 +4,9 @@
 //! To add a parameter: a field, its value in the default machine and its line among the keys, all in one
 //! file; a rule in `check.rs` if it can clash with another. The symbols are those of `docs/machine.md`.
 
-use crate::blend::Blend;
+use crate::blend::{Blend, BlendKind};
 use crate::channel::{MAX_CHANNELS, Precision};
+use crate::dither::Dither;
 use crate::extra::ExtraChannel;
 use crate::key::Domain::{OneOf, Range};
 use crate::key::{Domain, Key, number, word};
@@ -85,6 +86,8 @@ pub struct Machine {
     pub shade: Shade,
     /// SHADOW.
     pub shadow: Shadow,
+    /// DITHER.
+    pub dither: Dither,
     /// BLEND.
     pub blend: Blend,
     /// Bits of the tag that travels with a triangle to its writes; 0 leaves the ports out.
@@ -103,6 +106,12 @@ impl Machine {
         let mut machine = self.clone();
         change(&mut machine);
         machine
+    }
+
+    /// A triangle has one transmission coefficient, that of its first vertex: for BLEND or for DITHER.
+    #[must_use]
+    pub fn has_triangle_kt(&self) -> bool {
+        self.blend.kind == BlendKind::Constant || self.dither.drops()
     }
 }
 
@@ -131,6 +140,7 @@ impl Default for Machine {
             hazard: Hazard::Forward,
             shade: Shade::default(),
             shadow: Shadow::default(),
+            dither: Dither::default(),
             blend: Blend::default(),
             tag_bits: 0,
         }

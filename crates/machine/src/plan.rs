@@ -1,6 +1,5 @@
 //! The checked machine: what units, drawing and tools take.
 
-use crate::blend::BlendKind;
 use crate::channel::Channel;
 use crate::machine::Machine;
 use crate::shadow::LIGHT_SPACE;
@@ -64,12 +63,6 @@ impl Plan {
     #[must_use]
     pub fn terms(&self) -> &[Term] {
         &self.terms
-    }
-
-    /// A triangle has one transmission coefficient, that of its first vertex.
-    #[must_use]
-    pub fn has_triangle_kt(&self) -> bool {
-        self.blend.kind == BlendKind::Constant
     }
 
     /// The word lengths of this machine.

@@ -13,6 +13,7 @@ pub mod lamp;
 pub mod shade;
 pub mod project;
 pub mod shadow;
+pub mod dither;
 pub mod depth;
 pub mod blend;
 pub mod memory;
@@ -51,7 +52,7 @@ macro_rules! units {
     };
 }
 
-units! { setup, edge, span, term, pixel, texel, bump, normal, lamp, shade, project, shadow, depth, blend }
+units! { setup, edge, span, term, pixel, texel, bump, normal, lamp, shade, project, shadow, dither, depth, blend }
 
 impl Events {
     /// Names of the events that were not met.

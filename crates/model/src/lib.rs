@@ -24,6 +24,7 @@ pub mod lamp;
 pub mod shade;
 pub mod project;
 pub mod shadow;
+pub mod dither;
 pub mod depth;
 pub mod blend;
 pub mod edge;

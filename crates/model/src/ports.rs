@@ -10,6 +10,7 @@
 use crate::blend::Blend;
 use crate::bump::Bump;
 use crate::depth::Depth;
+use crate::dither::Dither;
 use crate::edge::Edge;
 use crate::lamp::Lamp;
 use crate::named::Sourced;
@@ -129,6 +130,7 @@ pub fn alone<const C: usize, V: Visit<C>>(plan: &Plan, name: &str, visit: V) -> 
         "shade" => visit.visit(Shade::<C>::new(plan)),
         "project" => visit.visit(Project::<C>::new(plan)),
         "shadow" => visit.visit(Shadow::<C>::new(plan)),
+        "dither" => visit.visit(Dither::new(plan)),
         "depth" => visit.visit(Depth::<C>::new(plan)),
         "blend" => visit.visit(Blend::<C>::new(plan)),
         _ => return None,

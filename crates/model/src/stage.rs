@@ -1,13 +1,14 @@
 //! The units between PIXEL and DEPTH: which of them a machine has, in which order, and what each does in a cycle.
 //!
 //! ```text
-//!  PIXEL ─> [TEXEL] ─> [BUMP] ─> [NORMAL or LAMP] ─> [SHADE] ─> [PROJECT] ─> [SHADOW] ─> DEPTH
+//!  PIXEL ─> [TEXEL] ─> [BUMP] ─> [NORMAL or LAMP] ─> [SHADE] ─> [PROJECT] ─> [SHADOW] ─> [DITHER] ─> DEPTH
 //! ```
 //! The plan declares the order. A machine without any of these units has an empty pipe. This is the only file with a match over
 //! all of them: a new unit has one arm in each.
 
 use crate::Events;
 use crate::bump::Bump;
+use crate::dither::Dither;
 use crate::lamp::Lamp;
 use crate::lit::{Given, Lit};
 use crate::machine::Inputs;
@@ -38,6 +39,8 @@ pub enum Unit<const C: usize> {
     Project(Project<C>),
     /// Looks a fragment up in the light's map.
     Shadow(Shadow<C>),
+    /// Rounds the colours of a fragment, or drops it.
+    Dither(Dither),
 }
 
 /// A unit in its place in the pipe.
@@ -72,6 +75,7 @@ impl<const C: usize> Unit<C> {
             "shade" => Unit::Shade(Shade::new(plan)),
             "project" => Unit::Project(Project::new(plan)),
             "shadow" => Unit::Shadow(Shadow::new(plan)),
+            "dither" => Unit::Dither(Dither::new(plan)),
             _ => return None,
         })
     }
@@ -95,15 +99,18 @@ impl<const C: usize> Stage<C> {
         self.memory.and_then(|memory| inputs.words.get(memory)).unwrap_or(&WordIn::NONE)
     }
 
-    /// The fragment that a unit makes of its oldest one and a word that its memory offers in this cycle. Other units hold what
-    /// they offer in a register.
+    /// The fragment that a unit makes in this cycle: of its oldest one and a word that its memory offers, or of the one that is offered
+    /// to it. Other units hold what they offer in a register.
     #[inline]
-    pub(crate) fn made(&self, inputs: &Inputs) -> Option<Lit<C>> {
+    pub(crate) fn made(&self, from: Option<Given<C>>, inputs: &Inputs) -> Option<Lit<C>> {
         match &self.unit {
             Unit::Texel(unit) => unit.textured(self.port(inputs)),
             Unit::Shadow(unit) => {
                 let shaded = unit.shaded(&inputs.shadow, self.port(inputs));
                 shaded.map(|frag| Given::alone(&frag).lit())
+            }
+            Unit::Dither(unit) => {
+                unit.dithered(from.map(|given| given.frag)).map(|frag| Given::alone(&frag).lit())
             }
             _ => None,
         }
@@ -113,7 +120,7 @@ impl<const C: usize> Stage<C> {
     #[inline]
     pub(crate) fn gives<'a>(&'a self, made: Option<&'a Lit<C>>) -> Option<Given<'a, C>> {
         match &self.unit {
-            Unit::Texel(_) | Unit::Shadow(_) => made.map(Lit::given),
+            Unit::Texel(_) | Unit::Shadow(_) | Unit::Dither(_) => made.map(Lit::given),
             Unit::Bump(unit) => unit.bumped().map(Lit::given),
             Unit::Normal(unit) => unit.normed().map(Lit::given),
             Unit::Lamp(unit) => unit.normed().map(Lit::given),
@@ -135,6 +142,7 @@ impl<const C: usize> Stage<C> {
             Unit::Shadow(unit) => {
                 unit.frag_ready(from.map(|given| given.frag), &inputs.shadow, self.port(inputs))
             }
+            Unit::Dither(unit) => unit.frag_ready(from.map(|given| given.frag), next),
         }
     }
 
@@ -143,7 +151,7 @@ impl<const C: usize> Stage<C> {
         match &self.unit {
             // A unit with room waits for its memory's ready, one that offers nothing for its memory's data.
             Unit::Texel(unit) => (!unit.full() || !links.gives).then_some(Activity::Texel),
-            Unit::Bump(_) => None,
+            Unit::Bump(_) | Unit::Dither(_) => None,
             Unit::Normal(unit) => unit.waits(links.from).then_some(Activity::Shade),
             Unit::Lamp(unit) => (unit.waits(links.from) || unit.working()).then_some(Activity::Shade),
             Unit::Shade(unit) => unit.waits(links.from).then_some(Activity::Shade),
@@ -163,6 +171,7 @@ impl<const C: usize> Stage<C> {
             Unit::Shade(unit) => unit.occupied(),
             Unit::Project(unit) => unit.occupied(),
             Unit::Shadow(unit) => unit.occupied(),
+            Unit::Dither(_) => false,
         }
     }
 
@@ -170,7 +179,7 @@ impl<const C: usize> Stage<C> {
     #[inline]
     pub(crate) fn asks(&self, links: &Links<C>, inputs: &Inputs) -> Option<(usize, Ask)> {
         let (addr, take) = match &self.unit {
-            Unit::Bump(_) | Unit::Project(_) => return None,
+            Unit::Bump(_) | Unit::Project(_) | Unit::Dither(_) => return None,
             Unit::Texel(unit) => (unit.read(links.from), unit.xdata_ready(links.next)),
             Unit::Normal(unit) => (unit.read(), unit.rdata_ready()),
             Unit::Lamp(unit) => (unit.read(), unit.rdata_ready()),
@@ -198,6 +207,7 @@ impl<const C: usize> Stage<C> {
                 let frag = from.map(|given| given.frag);
                 unit.step(frag, &inputs.shadow, port, gives && next, events);
             }
+            Unit::Dither(unit) => unit.step(from.map(|given| given.frag), next, events),
         }
     }
 
@@ -211,6 +221,7 @@ impl<const C: usize> Stage<C> {
             Unit::Shade(unit) => unit.reset(),
             Unit::Project(unit) => unit.reset(),
             Unit::Shadow(unit) => unit.reset(),
+            Unit::Dither(unit) => unit.reset(),
         }
     }
 
@@ -228,6 +239,7 @@ impl<const C: usize> Stage<C> {
             Unit::Shade(unit) => unit.show(&lit, out),
             Unit::Project(unit) => unit.show(&frag, out),
             Unit::Shadow(unit) => unit.show(&frag, out),
+            Unit::Dither(unit) => unit.show(&frag, out),
         }
     }
 
@@ -242,7 +254,8 @@ impl<const C: usize> Stage<C> {
             Unit::Lamp(unit) => unit.view(plan, from, port, next, view),
             Unit::Shade(unit) => unit.view(plan, from, port, (behind, next), view),
             Unit::Project(unit) => unit.view(plan, frag, next, view),
-            Unit::Shadow(unit) => unit.view(plan, frag, (&inputs.shadow, port), next, view),
+            Unit::Shadow(unit) => unit.view(plan, frag, (&inputs.shadow, port), (behind, next), view),
+            Unit::Dither(unit) => unit.view(plan, frag, next, view),
         }
     }
 }

@@ -45,7 +45,7 @@ macro_rules! blank_of {
     };
 }
 
-/// Channels of a machine without BLEND, TERM and SHADE and channels of the user's own: units of `C` = 4 serve it, of `C` = 8 any machine.
+/// Channels of a machine without BLEND, DITHER, TERM and SHADE and channels of the user's own: units of `C` = 4 serve it, of `C` = 8 any machine.
 pub const FEW: usize = 4;
 
 /// One word per channel, in the order of [`Plan::channels`]: z, r, g, b, then the user's own; behind the last 0. Words of
@@ -59,7 +59,10 @@ pub type OutputWords<const C: usize> = [u32; C];
 #[macro_export]
 macro_rules! for_channels {
     ($plan:expr, $C:ident => $body:expr) => {
-        if $plan.channels().len() <= $crate::tokens::FEW && !$plan.blend.is_there() && !$plan.shade.is_there()
+        if $plan.channels().len() <= $crate::tokens::FEW
+            && !$plan.blend.is_there()
+            && !$plan.dither.is_there()
+            && !$plan.shade.is_there()
         {
             const $C: usize = $crate::tokens::FEW;
             $body

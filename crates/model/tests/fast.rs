@@ -116,6 +116,7 @@ fn random_machines_equal_ticking() {
     let mut rng = StdRng::seed_from_u64(1);
     let (mut fast, mut channels, mut shadow, mut blend, mut shade, mut queue, mut interlock) =
         (0, 0, 0, 0, 0, 0, 0);
+    let (mut dithered, mut door) = (0, 0);
     let mut fragments = 0;
     for _ in 0..600 {
         let machine = random_machine(&mut rng);
@@ -124,11 +125,15 @@ fn random_machines_equal_ticking() {
             let state = DrawState {
                 depth_func: if rng.random_bool(0.5) { 1 } else { rng.random_range(0..8) },
                 depth_write: rng.random_bool(0.8),
-                clear: [0; 3].map(|_: u64| rng.random_range(0..=machine.color.max())),
+                clear: [0; 3].map(|_: u64| rng.random_range(0..=machine.stored_color().max())),
                 ..DrawState::default()
             };
             match compare(&machine, &triangles, state) {
-                Path::Fast => fast += 1,
+                Path::Fast => {
+                    fast += 1;
+                    dithered += usize::from(machine.dither.rounds());
+                }
+                Path::Ticked(Reason::ScreenDoor) => door += 1,
                 Path::Ticked(Reason::Channels) => channels += 1,
                 Path::Ticked(Reason::Shadow) => shadow += 1,
                 Path::Ticked(Reason::Blend) => blend += 1,
@@ -142,10 +147,11 @@ fn random_machines_equal_ticking() {
         }
     }
     println!(
-        "1800 frames, {fragments} triangles: {fast} fast; ticked: {channels} for their channels, {shadow} for SHADOW, {blend} for BLEND, {shade} for SHADE, {queue} for the queue, \
+        "1800 frames, {fragments} triangles: {fast} fast, {dithered} of them dithered; ticked: {door} for their screen door, {channels} for their channels, {shadow} for SHADOW, {blend} for BLEND, {shade} for SHADE, {queue} for the queue, \
          {interlock} for an interlock"
     );
     assert!(fast > queue + interlock, "more than half of those with four channels must take the fast path");
+    assert!(dithered > 50 && door > 50, "{dithered} dithered, {door} with a screen door");
     assert!(channels > 0 && shadow > 0 && blend > 0 && shade > 0 && queue > 0 && interlock > 0);
 }
 

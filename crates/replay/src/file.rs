@@ -199,7 +199,7 @@ fn planes(plan: &Plan, structure: &Structure) -> Vec<Value> {
         plane.as_object_mut()?.extend(more);
         Some(plane)
     };
-    let picture = json!({ "title": "Picture", "colour": [1, 2, 3], "bits": channels[1].bits });
+    let picture = json!({ "title": "Picture", "colour": [1, 2, 3], "bits": plan.stored_color().bits });
     let mut planes = vec![plane(structure.color, picture)];
     planes.push(plane(
         structure.depth,

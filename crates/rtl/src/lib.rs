@@ -44,6 +44,8 @@ mod rmw;
 
 mod shadow;
 
+mod dither;
+
 mod depth;
 
 mod blend;
@@ -57,6 +59,7 @@ mod machine;
 pub use blend::blend;
 pub use bump::bump;
 pub use depth::depth;
+pub use dither::dither;
 pub use edge::edge;
 pub use lamp::lamp;
 pub use machine::{assemble, engine, machine};
@@ -85,6 +88,7 @@ pub const BUILDERS: &[(&str, units::Build)] = &[
     ("shade", shade),
     ("project", project),
     ("shadow", shadow),
+    ("dither", dither),
     ("depth", depth),
     ("blend", blend),
 ];

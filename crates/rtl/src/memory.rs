@@ -97,7 +97,7 @@ pub fn memory(plan: &Plan, clear_z: u64) -> Result<Arc<Netlist>, BuildErrors> {
         m.output("cdata_valid", way.at_end());
         m.output("cdata_rgb", old);
     }
-    let bits = plan.color.bits;
+    let bits = plan.stored_color().bits;
     for (i, name) in ["b", "g", "r"].into_iter().enumerate() {
         let low = i as u32 * bits;
         m.output(&format!("scan_{name}"), shown.slice(low + bits - 1, low));

@@ -93,7 +93,7 @@ fn rate(plan: &Plan) -> f64 {
 /// Bits of a word of the frame memory: the colours and the user's own channels.
 fn color_bits(plan: &Plan) -> u64 {
     let own: u32 = plan.own_channels().map(|(_, channel)| channel.bits).sum();
-    u64::from(3 * plan.color.bits + own)
+    u64::from(3 * plan.stored_color().bits + own)
 }
 
 /// A memory with a word for each pixel: line y begins at y·2^xb, which leaves a gap behind lines of another length.

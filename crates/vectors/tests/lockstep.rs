@@ -118,6 +118,29 @@ fn every_suite_of_shade() {
     assert!(compared.iter().all(|compared| *compared > 100_000), "{compared:?}");
 }
 
+/// DITHER and DEPTH behind it, the directed suite and those of hazards; the whole machine once for each.
+#[test]
+fn every_suite_of_dither() {
+    let machines = common::dithers();
+    let compared: Vec<u64> = common::two_at_a_time(&machines, |i, (name, machine)| {
+        let (mut compared, mut natives) = (0, common::Natives::new(machine));
+        for (j, suite) in ["dither", "hazards", "random"].into_iter().enumerate() {
+            let suite = Suite::named(machine, suite, 3, 30).expect("listed");
+            let runs = Runs::new(machine, &suite, suite.state);
+            let wanted = [common::DITHER, common::DEPTH, Unit::MACHINE];
+            for unit in Unit::all(machine).into_iter().filter(|unit| wanted.contains(unit)) {
+                let trace = runs.capture(unit, StallKind::ALL[(i + j) % 3]);
+                let agreement = natives.lockstep(&trace).unwrap_or_else(|error| panic!("{name}: {error}"));
+                assert_eq!(agreement.compared, trace.port_values());
+                compared += agreement.compared;
+            }
+        }
+        compared
+    });
+    println!("{} machines, {} port values compared", compared.len(), compared.iter().sum::<u64>());
+    assert!(compared.iter().all(|compared| *compared > 100_000), "{compared:?}");
+}
+
 /// Before a depth of half of full scale each function but never and always passes some fragments and not others, under
 /// each policy, with and without the write mask.
 #[test]

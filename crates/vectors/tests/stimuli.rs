@@ -12,7 +12,7 @@ use sha2::{Digest, Sha256};
 use crate::common;
 
 /// Machines with everything that a suite looks at.
-const MACHINES: [&str; 14] = [
+const MACHINES: [&str; 16] = [
     "small",
     "textbook",
     "tiny",
@@ -27,11 +27,14 @@ const MACHINES: [&str; 14] = [
     "fast_phong_registers_relief",
     "phong_memory_multiply_two_lights_one_extra",
     "phong_lamp_multiply_texture",
+    "five_of_eight_bits",
+    "four_of_ten_bits_screen_door_interlock",
 ];
 
 #[test]
 fn every_suite_feeds_what_it_fed() {
-    let machines = [common::twelve(), common::glass(), common::lights(), common::shades()].concat();
+    let machines =
+        [common::twelve(), common::glass(), common::lights(), common::shades(), common::dithers()].concat();
     let mut fed = String::new();
     for name in MACHINES {
         let (_, plan) = machines.iter().find(|(other, _)| *other == name).expect("a machine of that name");

@@ -74,7 +74,7 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
     if args.hidden_lines && !lines_only {
         return Err(anyhow!("--hidden-lines: permitted with --engine golden --shading wireframe"));
     }
-    if args.engine == Engine::Golden && args.stalls != Waits::Never {
+    if matches!(args.engine, Engine::Golden | Engine::Scanline) && args.stalls != Waits::Never {
         return Err(anyhow!(
             "--stalls {}: the golden picture has no memory that stalls; draw with --engine fast",
             args.stalls

@@ -22,7 +22,7 @@ pub struct ActiveEdge<'a> {
 
 impl<'a> ActiveEdge<'a> {
     /// Where an edge crosses one of its lines.
-    fn on(edge: &'a Edge, line: i64) -> Self {
+    pub(crate) fn on(edge: &'a Edge, line: i64) -> Self {
         let [up, down] = edge.weights(line);
         // Both products are below 2^60: the crossing in units of the grid, times dy, from the centre of pixel 0.
         let x = (edge.start[0] - edge.grid.centre(0)) * (up + down) + down * edge.dx();
@@ -53,7 +53,7 @@ impl<'a> ActiveEdge<'a> {
     }
 
     /// From left to right, exact; edges that cross the line in one point in the order of the table.
-    fn order(&self, other: &Self) -> Ordering {
+    pub(crate) fn order(&self, other: &Self) -> Ordering {
         // A larger remainder is farther left. Remainders are divided by dy, so each is multiplied with the other's.
         let left = |a: &Self, b: &Self| i128::from(a.remainder) * i128::from(b.edge.dy());
         self.column

@@ -42,19 +42,14 @@ impl Grid {
     }
 
     /// The first pixel whose centre is not before `place`, either axis: rounded up.
-    pub(super) fn first_pixel(self, place: i64) -> i64 {
+    pub(crate) fn first_pixel(self, place: i64) -> i64 {
         -(self.centre - place).div_euclid(self.pitch())
     }
 
-    /// The pixel that holds `place`, either axis.
-    pub(crate) fn pixel_of(self, place: i64) -> i64 {
-        self.pixel_of_quotient(place, 1)
-    }
-
-    /// The pixel that holds `numerator` / `denominator`, which are below 2^60 and 2^30.
-    pub(crate) fn pixel_of_quotient(self, numerator: i64, denominator: i64) -> i64 {
-        let edge = self.centre - self.pitch() / 2;
-        (numerator - edge * denominator).div_euclid(self.pitch() * denominator)
+    /// The pixel whose centre is nearest to `numerator` / `denominator`, which are below 2^60 and 2^30; of two the lesser one.
+    pub(crate) fn nearest_pixel(self, numerator: i64, denominator: i64) -> i64 {
+        let end = self.centre + self.pitch() / 2;
+        -(end * denominator - numerator).div_euclid(self.pitch() * denominator)
     }
 
     /// In pixels, exact.

@@ -18,7 +18,7 @@ pub struct Span<'a> {
 }
 
 impl<'a> Span<'a> {
-    pub(super) fn new(left: ActiveEdge<'a>, right: ActiveEdge<'a>, line: i64) -> Self {
+    pub(crate) fn new(left: ActiveEdge<'a>, right: ActiveEdge<'a>, line: i64) -> Self {
         let [[a, b], [c, d]] = [left, right].map(|crossing| crossing.edge().values);
         Self { left, right, line, vertices: [a, b, c, d] }
     }
@@ -31,7 +31,7 @@ impl<'a> Span<'a> {
     }
 
     /// Its pixels on a screen so wide; both ends are rounded up, and the last is not in it.
-    pub(super) fn columns(&self, width: u32) -> Range<u32> {
+    pub(crate) fn columns(&self, width: u32) -> Range<u32> {
         let on_screen = |column: i64| column.clamp(0, i64::from(width)) as u32;
         on_screen(self.left.column())..on_screen(self.right.column())
     }

@@ -1,10 +1,13 @@
 //! A line's pixels: one in each column, or in each row of a steep one (DDA).
 //!
 //! ```text
-//!        . . # #       at the middle of each column, or at the line's end if that comes first, the pixel that holds the
-//!        . # . .       point of the line; neighbouring pixels touch at least at a corner
-//!        # . . .
+//!        . . # #       in each column whose centre lies in [from, to), the pixel whose centre is nearest to the line there,
+//!        . # . .       of two the upper one (of a steep line, in each row, the left one); neighbouring pixels touch at
+//!        # . . .       least at a corner
 //! ```
+//! Half-open along the main axis: lines that follow each other draw no pixel twice, so blending shows no joint, and depth and colour stay
+//! between those of the ends. A line that has no centre along it has no pixel.
+//!
 //! A classical DDA adds 1/m and rounds; here each point is an exact quotient, and the same whichever end comes first.
 //!
 //! Units: those of [`Grid`], coordinates below 2^29, differences below 2^30, products below 2^60.
@@ -27,13 +30,12 @@ pub(super) fn pixels(
     let sides = [width, height];
     let reversed = a[along] > b[along];
     let [from, to] = if reversed { [b, a] } else { [a, b] };
-    // The only point of a line without length is where both of its ends are.
-    let length = (to[along] - from[along]).max(1);
-    let first = grid.pixel_of(from[along]).max(0);
-    let last = grid.pixel_of(to[along]).min(i64::from(sides[along]) - 1);
-    for pixel in first..=last {
-        let way = grid.centre(pixel).clamp(from[along], to[along]) - from[along];
-        let other = grid.pixel_of_quotient(from[across] * length + way * (to[across] - from[across]), length);
+    let length = to[along] - from[along];
+    let first = grid.first_pixel(from[along]).max(0);
+    let end = grid.first_pixel(to[along]).min(i64::from(sides[along]));
+    for pixel in first..end {
+        let way = grid.centre(pixel) - from[along];
+        let other = grid.nearest_pixel(from[across] * length + way * (to[across] - from[across]), length);
         if (0..i64::from(sides[across])).contains(&other) {
             let far = way as f64 / length as f64;
             let weights = if reversed { [far, 1.0 - far] } else { [1.0 - far, far] };

@@ -1,6 +1,7 @@
 //! The errors of each channel, their bounds, and which outputs wrapped.
 
 use super::order::Over;
+use edgewalk_golden::dither::Dither;
 use edgewalk_host::extra::{self, Label, OwnChannel};
 use edgewalk_host::raster::Raster;
 use edgewalk_machine::{Channel, ErrorBudget, NoBound, Plan};
@@ -17,6 +18,12 @@ pub struct Tally {
     pub extra: Vec<Errors>,
     /// Pixels where any wrapped.
     pub wrapped: u64,
+    /// Largest stored colour.
+    most: f64,
+    /// With DITHER.
+    pattern: Option<Pattern>,
+    /// Colours that DITHER makes of none within the bound at their pixels.
+    pub off_pattern: u64,
 }
 
 /// Errors of a channel found so far, LSB.
@@ -24,6 +31,8 @@ pub struct Errors {
     channel: Channel,
     /// LSB that a 1 of the pictures stands for.
     unit: f64,
+    /// Of a colour, LSB: the step by which DITHER rounds it; else 0.
+    step: f64,
     budget: Result<ErrorBudget, NoBound>,
     largest: f64,
     sums: Sums,
@@ -41,6 +50,23 @@ struct Sums {
     top: Vec<f64>,
     /// Of `top`, as many count as 1 of 100 of all the values that there may be.
     room: usize,
+}
+
+/// What DITHER may store at a pixel.
+struct Pattern {
+    dither: Dither,
+    width: usize,
+    /// Proved bound of a colour before it is rounded to fewer bits, LSB.
+    bound: f64,
+}
+
+impl Pattern {
+    /// None without DITHER, or where no bound is proved.
+    fn of(machine: &Plan) -> Option<Pattern> {
+        let bound = machine.proved_budget(&machine.channels()[1]).ok()?.after_rounding().to_f64();
+        let dither = Dither { bits: machine.color.bits, left: machine.stored_color().bits };
+        machine.dither.rounds().then_some(Pattern { dither, width: machine.width as usize, bound })
+    }
 }
 
 /// How the errors of a channel are spread over all values compared, LSB.
@@ -61,6 +87,7 @@ impl Tally {
         let errors = |channel: Channel, unit: f64| Errors {
             channel,
             unit,
+            step: if channel.name == "r" { machine.dither_step() } else { 0.0 },
             budget: machine.proved_budget(&channel),
             largest: 0.0,
             sums: Sums::new(3 * screen),
@@ -73,6 +100,9 @@ impl Tally {
             color: of_unit(1),
             extra: extra::channels(machine).iter().map(|channel| errors(*channel, 1.0)).collect(),
             wrapped: 0,
+            most: machine.stored_color().max() as f64,
+            pattern: Pattern::of(machine),
+            off_pattern: 0,
         }
     }
 
@@ -94,6 +124,16 @@ impl Tally {
             wrapped |= errors.add(i, exact, drawn.at(i));
         }
         self.wrapped += u64::from(wrapped);
+    }
+
+    /// Counts the colours of pixel `i`, which is pixel `place` of the screen, that DITHER makes of none within the bound.
+    pub fn on_pattern(&mut self, i: usize, place: usize, exact: [f64; 3], drawn: &Raster) {
+        let Some(Pattern { dither, width, bound }) = &self.pattern else { return };
+        let at = [place % width, place / width].map(|c| c as u32);
+        for (exact, drawn) in exact.into_iter().zip(drawn.rgb[i]) {
+            let explained = dither.explains(dither.nearest(drawn), exact * self.color.unit, bound + 1e-9, at);
+            self.off_pattern += u64::from(!explained);
+        }
     }
 
     /// How far the colour of pixel `i` is from this one, LSB.
@@ -120,8 +160,7 @@ impl Tally {
 
     fn is_clear(&self, i: usize, clear: [f64; 3], drawn: &Raster) -> bool {
         let half = 0.5 + 1e-9; // the division by 2^b - 1 rounds
-        let near =
-            |(exact, drawn): (f64, f64)| (exact - drawn).abs() * self.color.channel.max() as f64 <= half;
+        let near = |(exact, drawn): (f64, f64)| (exact - drawn).abs() * self.most <= half;
         let own = drawn.extra.iter().all(|values| values.at(i) == 0.0);
         own && clear.into_iter().zip(drawn.rgb[i]).all(near)
     }
@@ -144,13 +183,15 @@ impl Errors {
         std::mem::take(&mut self.map)
     }
 
-    /// What was found, with the proved largest error of the output: vertex rounding, all additions, output rounding (bounds 2, 4).
+    /// What was found, with the proved largest error of the output: vertex rounding, all additions, output rounding (bounds 2, 4), and
+    /// the step of DITHER (bound 18).
     pub fn found(self) -> ChannelError {
         ChannelError {
             bits: self.channel.bits,
+            unproved: 1.0 + self.step,
             error: self.largest,
             spread: self.sums.spread(),
-            bound: self.budget.map(|budget| budget.after_rounding().to_f64()).ok(),
+            bound: self.budget.map(|budget| budget.after_rounding().to_f64() + self.step).ok(),
             no_bound: self.budget.err().map(|why| why.to_string()),
             bound_for_input: None,
             map: Vec::new(),
@@ -163,6 +204,8 @@ impl Errors {
 pub struct ChannelError {
     /// Of the output.
     bits: u32,
+    /// Where no bound is proved, more is wrong, LSB.
+    unproved: f64,
     /// Largest error, LSB.
     pub error: f64,
     /// How the errors are spread.
@@ -185,7 +228,7 @@ impl ChannelError {
 
     /// 1 where the error exceeds its bound, or where none is proved an LSB.
     pub(super) fn beyond(&self) -> u64 {
-        beyond(self.error, self.bound_for_input.or(self.bound).unwrap_or(1.0))
+        beyond(self.error, self.bound_for_input.or(self.bound).unwrap_or(self.unproved))
     }
 
     fn line(&self, name: &str) -> String {

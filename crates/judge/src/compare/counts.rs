@@ -26,6 +26,10 @@ pub struct Counts {
     pub background_wrong: u64,
     /// Pixels of which a value left its range and wrapped.
     pub wrapped: u64,
+    /// With DITHER: colours that its pattern makes of none within the bound; of pictures without a light's map and without shading at each
+    /// pixel.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub off_pattern: Option<u64>,
     /// Cycles of the machine without a cause, or with two.
     pub cycles_unexplained: u64,
 }
@@ -43,6 +47,7 @@ impl Counts {
             order_wrong: 0,
             background_wrong: 0,
             wrapped: 0,
+            off_pattern: None,
             cycles_unexplained: cycles.map_or(0, |cycles| cycles.unexplained()),
         }
     }
@@ -59,6 +64,7 @@ impl Counts {
             + self.order_wrong
             + self.background_wrong
             + self.wrapped
+            + self.off_pattern.unwrap_or(0)
             + self.cycles_unexplained
     }
 
@@ -71,8 +77,11 @@ impl Counts {
 
     pub(super) fn lines_of_order(&self) -> String {
         let Counts { wrapped, order_undecided, order_wrong, background_wrong, .. } = self;
+        let pattern = self
+            .off_pattern
+            .map_or_else(String::new, |off| format!("colours off the pattern of DITHER {off}\n"));
         format!(
-            "pixels with a value that wrapped {wrapped}\n\
+            "{pattern}pixels with a value that wrapped {wrapped}\n\
              triangle or writes differ: {order_undecided} within the bound of depth order, {order_wrong} wrong; background wrong {background_wrong}\n"
         )
     }

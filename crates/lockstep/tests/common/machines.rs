@@ -3,8 +3,8 @@
 use edgewalk_machine::key::Domain;
 use edgewalk_machine::keys::KEYS;
 use edgewalk_machine::{
-    BlendKind, Fill, MAX_CHANNELS, Machine, Plan, Precision, ShadeColour, ShadeLight, ShadowLight, Texture,
-    Transmits,
+    BlendKind, Dither, Fill, MAX_CHANNELS, Machine, OwnPass, Plan, Precision, ShadeColour, ShadeLight,
+    ShadowLight, Texture, Transmits,
 };
 use rand::Rng;
 use rand::seq::IndexedRandom;
@@ -69,7 +69,16 @@ fn draw(rng: &mut Pcg64Mcg) -> Machine {
     machine.extras.iter_mut().for_each(|extra| within(&mut extra.precision));
     let kt = &mut machine.blend;
     kt.kt_vertex = kt.kt_vertex.min(kt.kt_fraction);
+    if kt.kind != BlendKind::None || rng.random() {
+        machine.dither = Dither::default(); // with BLEND there is none, and half of the others have none
+    }
+    if machine.dither.bits >= machine.color.bits {
+        machine.dither.bits = 0;
+    }
     let light = &mut machine.shadow;
+    if machine.dither.drops() {
+        light.own_pass = OwnPass::No; // the pattern is that of the picture
+    }
     light.vertex_fraction = light.vertex_fraction.min(light.fraction);
     if machine.extra > 2 && rng.random() {
         light.light = ShadowLight::None; // it leaves no room for so many channels of the user's own

@@ -21,7 +21,7 @@ pub const SPEC: UnitSpec = UnitSpec {
 
 fn ports(plan: &Plan) -> Ports {
     // Whether a pixel is in flight is asked of fragments only.
-    let frag = Link { ready: Ready::WhileValid, ..Link::new("frag", tokens::shaded(plan)) };
+    let frag = Link { ready: Ready::WhileValid, ..Link::new("frag", tokens::dithered(plan)) };
     let mut constants = vec![
         Field::count(
             "depth_func",

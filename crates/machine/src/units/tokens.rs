@@ -264,6 +264,31 @@ pub fn shaded(plan: &Plan) -> Vec<Field> {
     fields
 }
 
+/// The outputs that DEPTH takes: colours with the bits that DITHER leaves them.
+fn stored(plan: &Plan) -> impl Iterator<Item = Field> {
+    let color = |field: Field| match field.name.as_str() {
+        "r" | "g" | "b" if plan.dither.rounds() => {
+            let format = Format::unsigned(plan.dither.bits, 0).expect("4 to 7 bits");
+            Field { format, ..field }
+        }
+        _ => field,
+    };
+    seen(plan).map(color)
+}
+
+/// DITHER to DEPTH: a fragment with the colours that are stored, without k_t if that has dropped others; without DITHER what SHADOW
+/// gives.
+#[must_use]
+pub fn dithered(plan: &Plan) -> Vec<Field> {
+    let mut fields = vec![address(plan)];
+    fields.extend(stored(plan));
+    fields.extend(triangle_kt(plan).filter(|_| !plan.dither.drops()));
+    fields.extend(lit(plan));
+    fields.push(fence());
+    fields.extend(tag(plan));
+    fields
+}
+
 /// The address of a texel, `ty·2^SB + tx`.
 #[must_use]
 pub fn texel_address(plan: &Plan) -> Field {
@@ -391,7 +416,7 @@ pub fn entry(plan: &Plan) -> Vec<Field> {
 #[must_use]
 pub fn write(plan: &Plan) -> Vec<Field> {
     let mut fields = vec![address(plan)];
-    for field in seen(plan) {
+    for field in stored(plan) {
         let is_depth = field.name == "z";
         fields.push(field);
         if is_depth {

@@ -8,7 +8,9 @@
 //! stalls, bit by bit and cycle by cycle. Where that cannot be said without ticking, [`Renderer`] says why, and [`draw`]
 //! ticks.
 //!
-//! Not modelled: [`Events`], memories that stall, channels of the user's own, BLEND, TERM and SHADE.
+//! DITHER rounds a colour by its pixel alone: so colours are kept as PIXEL gives them, and rounded when they are read.
+//!
+//! Not modelled: [`Events`], memories that stall, channels of the user's own, BLEND, dropped fragments, TERM and SHADE.
 
 mod divide;
 mod setup;
@@ -48,6 +50,8 @@ pub enum Reason {
     Shadow,
     /// The machine blends.
     Blend,
+    /// The machine drops fragments by a pattern.
+    ScreenDoor,
     /// The machine shades at each pixel.
     Shade,
     /// The rules change between triangles.
@@ -97,6 +101,7 @@ impl fmt::Display for Path {
             Path::Ticked(Reason::Channels) => "ticked: the machine has extra channels",
             Path::Ticked(Reason::Shadow) => "ticked: the machine has SHADOW",
             Path::Ticked(Reason::Blend) => "ticked: the machine has BLEND",
+            Path::Ticked(Reason::ScreenDoor) => "ticked: the machine drops fragments by a pattern",
             Path::Ticked(Reason::Shade) => "ticked: the machine has TERM and SHADE",
             Path::Ticked(Reason::Passes) => "ticked: the rules change between triangles",
             Path::Ticked(Reason::Queue) => "ticked: the in-flight queue may fill",
@@ -197,8 +202,8 @@ impl Renderer {
     pub fn lines(&self, lines: Range<u32>) -> Frame {
         let [start, end] = [lines.start, lines.end].map(|line| line as usize * self.plan.width as usize);
         let ((z, rgb), details) = match &self.memory {
-            Memory::Narrow(picture) => (picture.outputs(start..end), &picture.details),
-            Memory::Wide(picture) => (picture.outputs(start..end), &picture.details),
+            Memory::Narrow(picture) => (picture.outputs(&self.plan, start..end), &picture.details),
+            Memory::Wide(picture) => (picture.outputs(&self.plan, start..end), &picture.details),
         };
         let part = |counts: &[u32]| counts.get(start..end).unwrap_or_default().to_vec();
         Frame {
@@ -237,6 +242,9 @@ where
 fn refused(plan: &Plan) -> Option<Reason> {
     if plan.blend.is_there() {
         return Some(Reason::Blend);
+    }
+    if plan.dither.drops() {
+        return Some(Reason::ScreenDoor);
     }
     if plan.shadow.is_there() {
         return Some(Reason::Shadow);

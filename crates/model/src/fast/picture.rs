@@ -2,6 +2,7 @@
 
 use super::pixel::{Pixel, pixel};
 use crate::DrawState;
+use crate::dither::Cut;
 use edgewalk_machine::Plan;
 use std::ops::Range;
 
@@ -65,12 +66,26 @@ impl<P: Pixel> Picture<P> {
         P::stamp(self.frame)
     }
 
-    /// Stored depths and colours of these pixels, b bits each.
-    pub(super) fn outputs(&self, pixels: Range<usize>) -> (Vec<u64>, Vec<[u64; 3]>) {
+    /// Stored depths and colours of these pixels; with DITHER of n bits.
+    pub(super) fn outputs(&self, plan: &Plan, pixels: Range<usize>) -> (Vec<u64>, Vec<[u64; 3]>) {
+        let (first, cut) = (pixels.start, plan.dither.rounds().then(|| Cut::new(plan)));
         let stored = self.pixels.get(pixels).unwrap_or_default().iter();
         stored
-            .map(|pixel| pixel.or_clear(self.clear, self.stamp()))
-            .map(|p| (u64::from(p.depth()), p.rgb()))
+            .enumerate()
+            .map(|(place, pixel)| {
+                let shown = pixel.or_clear(self.clear, self.stamp());
+                let drawn = *pixel >= self.stamp();
+                let rgb = match &cut {
+                    Some(cut) if drawn => {
+                        let (x, y) =
+                            ((first + place) % plan.width as usize, (first + place) / plan.width as usize);
+                        let pattern = cut.pattern((y << plan.widths().x | x) as u32);
+                        shown.rgb().map(|color| cut.color(color as u32, pattern).into()) // b <= 16 bits
+                    }
+                    _ => shown.rgb(),
+                };
+                (u64::from(shown.depth()), rgb)
+            })
             .unzip()
     }
 }

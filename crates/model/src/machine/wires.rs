@@ -18,7 +18,7 @@ const STAGES: usize = 8;
 /// What is on the links.
 #[derive(Clone, Copy, Debug)]
 pub struct Wires<const C: usize> {
-    /// Fragments that stages make of words of their memories.
+    /// Fragments that stages make in this cycle.
     made: [Option<Lit<C>>; STAGES],
     /// By place in the pipe, and of DEPTH behind the last: the fragment offered there is taken.
     ready: [bool; STAGES + 1],
@@ -40,7 +40,7 @@ impl<const C: usize> Wires<C> {
         self.ready[place]
     }
 
-    /// The fragment that the stage at this place makes of a word of its memory.
+    /// The fragment that the stage at this place makes in this cycle.
     #[inline(always)]
     pub(super) fn made(&self, place: usize) -> Option<&Lit<C>> {
         self.made[place].as_ref()
@@ -83,8 +83,8 @@ impl<const C: usize> Model<C> {
             there: self.term().is_none_or(|term| term.there(self.span.span())),
             pixel_ready: false,
         };
-        for (stage, made) in pipe.iter().zip(&mut wires.made) {
-            *made = stage.made(inputs);
+        for (place, stage) in pipe.iter().enumerate() {
+            wires.made[place] = stage.made(self.given(&wires, place), inputs);
         }
         let seen = self.given(&wires, pipe.len());
         wires.block = self.depth.block(seen.map(|given| given.frag), inputs.depth_write);

@@ -7,13 +7,13 @@ use crate::word_memory::WordIn;
 use edgewalk_machine::Plan;
 
 impl<const C: usize> Shadow<C> {
-    /// Shows the unit in a cycle with these inputs; `shaded_ready`: DEPTH takes what is offered to it.
+    /// Shows the unit in a cycle with these inputs; `next`: who takes what it gives, and whether it is taken.
     pub fn view(
         &self,
         plan: &Plan,
         frag: Option<&Fragment<C>>,
         (inputs, map): (&ShadowInputs, &WordIn),
-        shaded_ready: bool,
+        (next, shaded_ready): (&str, bool),
         view: &mut View,
     ) {
         view.unit(plan, "shadow");
@@ -54,7 +54,7 @@ impl<const C: usize> Shadow<C> {
 
         view.takes("mdata", map.word.is_some(), self.mdata_ready(shaded_ready));
         view.gives("mrd", None, read.is_some(), map.ready);
-        view.gives("shaded", Some("depth"), seen.is_some(), shaded_ready);
+        view.gives("shaded", Some(next), seen.is_some(), shaded_ready);
     }
 
     fn view_queue(&self, plan: &Plan, view: &mut View) {

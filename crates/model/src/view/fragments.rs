@@ -52,12 +52,22 @@ fn but_weight(plan: &Plan) -> impl Iterator<Item = (usize, &Channel)> {
 
 /// Names of the kind of token from DEPTH on, and of a table of them.
 pub(crate) fn seen(plan: &Plan) -> (&'static str, &'static str) {
-    if plan.shadow.is_there() { ("shaded", "fragments, lit or not") } else { ("fragment", "fragments") }
+    if plan.dither.rounds() {
+        ("dithered", "fragments with the colours that are stored")
+    } else if plan.shadow.is_there() {
+        ("shaded", "fragments, lit or not")
+    } else {
+        ("fragment", "fragments")
+    }
 }
 
-/// Its fields: with SHADOW without the channels that end there, and with its answer.
+/// Its fields: with SHADOW without the channels that end there, and with its answer; with DITHER with the colours that are stored.
 pub(crate) fn seen_fields(plan: &Plan) -> Vec<Field> {
-    let channels = plan.seen_channels().map(channel);
+    let stored = |(place, own): (usize, &Channel)| match own.name {
+        "r" | "g" | "b" => channel((place, &Channel { precision: plan.stored_color(), ..*own })),
+        _ => channel((place, own)),
+    };
+    let channels = plan.seen_channels().map(stored);
     let lit = plan.shadow.is_there().then_some(Field { name: "lit", shape: Shape::Flag, brief: true });
     std::iter::once(pixel(plan)).chain(channels).chain(lit).collect()
 }

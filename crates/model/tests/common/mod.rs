@@ -10,7 +10,7 @@ pub mod shade;
 pub use check::Check;
 pub use rule::inside;
 
-use edgewalk_machine::{Channel, Kind, Machine, Plan, PortVertex, ShadeKind};
+use edgewalk_machine::{BlendKind, Channel, Dither, Kind, Machine, Plan, PortVertex, ShadeKind};
 use edgewalk_model::tokens::output;
 use edgewalk_model::{DrawState, Frame, Sample, Stalls};
 use rand::Rng;
@@ -121,6 +121,9 @@ pub fn random_machine(fixed: &[(&str, &str)], rng: &mut impl Rng) -> Plan {
             (key.set)(&mut machine, value);
         }
         machine.shade.kind = ShadeKind::None;
+        if machine.blend.kind != BlendKind::None || rng.random_bool(0.6) {
+            machine.dither = Dither::default(); // it clashes with BLEND, and others are wanted, too
+        }
         for (key, value) in fixed {
             machine.set(key, value).expect("a key of the machine");
         }

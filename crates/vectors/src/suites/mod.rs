@@ -9,11 +9,13 @@
 //!  blend_add ..     machines with BLEND: colours that are added, and colours that are not written
 //!  light ..         machines with SHADOW: the corners of its map, and no map
 //!  own_map ..       machines that draw their map: the ends of map and screen, in either pass
+//!  dither           machines with DITHER: each place of its pattern, ends of colours, dropped fences
 //!  shade            machines with SHADE: words at the ends of its tables, materials in turn
 //! ```
 //! A suite knows the formats of the machine, nothing of what it draws.
 
 mod corners;
+mod dither;
 mod functions;
 mod hazards;
 mod light;
@@ -89,6 +91,8 @@ enum Kind {
     Light { shadow_on: bool },
     /// For machines that draw their map: in the light's pass or in the picture's.
     OwnMap { light_pass: bool },
+    /// For DITHER: each place of its pattern.
+    Dither,
     /// For TERM, TEXEL, NORMAL and SHADE: words of its own.
     Shade,
 }
@@ -114,6 +118,7 @@ impl Entry {
             Kind::Colors { .. } => machine.blend.is_there(),
             Kind::Light { .. } => machine.shadow.is_there(),
             Kind::OwnMap { .. } => machine.shadow.draws_map(),
+            Kind::Dither => machine.dither.is_there(),
             Kind::Shade => machine.shade.is_there(),
             Kind::Shapes(..) | Kind::Function(..) => true,
         }
@@ -121,7 +126,7 @@ impl Entry {
 }
 
 /// The suites that come with the program.
-pub const SUITES: [Entry; 20] = [
+pub const SUITES: [Entry; 21] = [
     shapes(
         "hazards",
         "pixels met again while they are in flight: one-pixel triangles on one address, knee lines drawn twice",
@@ -181,6 +186,11 @@ pub const SUITES: [Entry; 20] = [
         name: "own_picture",
         about: "the same with light_pass = 0",
         kind: Kind::OwnMap { light_pass: false },
+    },
+    Entry {
+        name: "dither",
+        about: "each place of the pattern: colours at the ends of their range and between, k_t at and beyond each sixteenth, first fragments dropped, in machines with DITHER",
+        kind: Kind::Dither,
     },
     Entry {
         name: "shade",
@@ -253,6 +263,12 @@ impl Suite {
                     ]
                 },
                 cases: own_map::cases(machine),
+                ..plain
+            },
+            Kind::Dither => Suite {
+                stalls: StallKind::Mixed,
+                units: const { &[Unit::MACHINE, Unit::of(&units::dither::SPEC), Unit::of(&units::depth::SPEC)] },
+                cases: dither::cases(machine),
                 ..plain
             },
             Kind::Shade => {

@@ -4,8 +4,9 @@
 use edgewalk_lockstep::{Agreement, Interface, LockstepError, NetlistDevice, PortError};
 use edgewalk_machine::units;
 use edgewalk_machine::{
-    Blend, BlendKind, Bump, EdgeKind, Fill, Gate, Hazard, Kind, Machine, OwnPass, Plan, Precision, Project,
-    Shade, ShadeColour, ShadeKind, ShadeLight, Shadow, ShadowLight, Texture, Transmits, Walk,
+    Blend, BlendKind, Bump, Dither, EdgeKind, Fill, Gate, Hazard, Kind, Machine, OwnPass, Plan, Precision,
+    Project, ScreenDoor, Shade, ShadeColour, ShadeKind, ShadeLight, Shadow, ShadowLight, Texture, Transmits,
+    Walk,
 };
 use edgewalk_netlist::Netlist;
 use edgewalk_vectors::{Files, Trace, Unit};
@@ -104,6 +105,7 @@ pub const BUMP: Unit = Unit::of(&units::bump::SPEC);
 pub const NORMAL: Unit = Unit::of(&units::normal::SPEC);
 pub const LAMP: Unit = Unit::of(&units::lamp::SPEC);
 pub const SHADE: Unit = Unit::of(&units::shade::SPEC);
+pub const DITHER: Unit = Unit::of(&units::dither::SPEC);
 pub const DEPTH: Unit = Unit::of(&units::depth::SPEC);
 pub const PROJECT: Unit = Unit::of(&units::project::SPEC);
 pub const SHADOW: Unit = Unit::of(&units::shadow::SPEC);
@@ -298,6 +300,34 @@ pub fn lights() -> Vec<(&'static str, Plan)> {
         ),
     ];
     list.into_iter().map(|(name, machine)| (name, checked(machine))).collect()
+}
+
+/// Five machines with DITHER: every number of bits that are left and several that are cut, screen doors with and without, narrow screens,
+/// policies of DEPTH, SHADOW and channels of the user's own.
+pub fn dithers() -> Vec<(&'static str, Plan)> {
+    let small = Machine::clone(&small());
+    let machine = |[color, bits, kt_bits]: [u32; 3], screen_door| {
+        let mut machine = small.clone();
+        machine.color.bits = color;
+        machine.dither = Dither { bits, screen_door };
+        machine.blend.kt_bits = kt_bits;
+        machine
+    };
+    let five = machine([8, 5, 8], ScreenDoor::No);
+    let door = Machine { hazard: Hazard::Drain, ..machine([8, 0, 4], ScreenDoor::Yes) };
+    let both = Machine { hazard: Hazard::Interlock, tag_bits: 3, ..machine([10, 4, 7], ScreenDoor::Yes) };
+    let narrow = Machine { width: 2, height: 2, ..machine([8, 7, 5], ScreenDoor::Yes) };
+    let mut shadow = with_extras(machine([12, 6, 6], ScreenDoor::Yes), [(Kind::Signed, 5)]);
+    shadow.shadow =
+        Shadow { light: ShadowLight::Parallel, size: 8, fraction: 8, vertex_fraction: 2, ..shadow.shadow };
+    let list = [
+        ("five_of_eight_bits", five),
+        ("screen_door_drain", door),
+        ("four_of_ten_bits_screen_door_interlock", both),
+        ("seven_of_eight_bits_two_columns_and_lines", narrow),
+        ("six_of_twelve_bits_screen_door_shadow_one_extra", shadow),
+    ];
+    list.map(|(name, machine)| (name, checked(machine))).to_vec()
 }
 
 /// Nine machines with TERM and SHADE: fast Phong and Phong, both walks, colours from tables and multiplied, one light and two, materials,

@@ -15,7 +15,8 @@ mod traces;
 
 use crate::common;
 use edgewalk_machine::{
-    Blend, BlendKind, Gate, Hazard, Machine, Plan, Precision, Shadow, ShadowLight, Transmits,
+    Blend, BlendKind, Dither, Gate, Hazard, Machine, Plan, Precision, ScreenDoor, Shadow, ShadowLight,
+    Transmits,
 };
 use edgewalk_netlist::mutate::mutants;
 use edgewalk_vectors::{Interface, Unit, design};
@@ -145,6 +146,23 @@ fn single_faults_of_shadow_are_found() {
 #[ignore = "minutes: each fault of SHADOW"]
 fn every_fault_of_shadow_is_found() {
     share_found(&machines_with_shadow(), |_| 1, SHADOW_LEAST);
+}
+
+/// DITHER with a screen door, bits cut or not.
+fn machines_with_dither() -> Vec<(Plan, Unit)> {
+    let each = |[color, bits, kt_bits]: [u32; 3]| {
+        let mut machine = Machine::clone(&machine_for(common::DEPTH));
+        machine.color.bits = color;
+        machine.dither = Dither { bits, screen_door: ScreenDoor::Yes };
+        machine.blend.kt_bits = kt_bits;
+        (machine.plan().expect("can be built"), common::DITHER)
+    };
+    [[7, 4, 5], [9, 4, 4], [3, 0, 6]].map(each).to_vec()
+}
+
+#[test]
+fn every_fault_of_dither_is_found() {
+    share_found(&machines_with_dither(), |_| 1, BLEND_LEAST);
 }
 
 /// Of TERM, PIXEL's terms, TEXEL, BUMP, NORMAL, LAMP and SHADE; of PROJECT.

@@ -46,6 +46,17 @@ pub fn traces(machine: &Plan, unit: Unit) -> Vec<Trace> {
                 any.map(|(stalls, seed)| any_fragments(machine, &traces[1], stalls, seed)).collect();
             traces.extend(any);
         }
+        "dither" => {
+            let suite = Suite::named(machine, "dither", 1, 24).expect("listed");
+            traces.truncate(2);
+            for stalls in StallKind::ALL {
+                traces.push(capture(machine, unit, &suite, suite.state, stalls));
+            }
+            let any = StallKind::ALL.into_iter().zip(1..);
+            let any: Vec<_> =
+                any.map(|(stalls, seed)| any_fragments(machine, &traces[2], stalls, seed)).collect();
+            traces.extend(any);
+        }
         "term" | "texel" | "bump" | "normal" | "lamp" | "shade" | "project" => {
             let own = if unit == common::PROJECT { "light" } else { "shade" };
             let suite = Suite::named(machine, own, 1, 24).expect("listed");

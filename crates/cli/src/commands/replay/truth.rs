@@ -10,16 +10,19 @@ use edgewalk_replay::Truth;
 use edgewalk_scene::Frame;
 use std::collections::{HashMap, HashSet};
 
-/// The kinds of token that are fragments from DEPTH on, with SHADOW and without: pixel, then depth and colours.
-const FRAGMENTS: [&str; 2] = ["shaded", "fragment"];
+/// The kinds of token that are fragments from DEPTH on, with DITHER, with SHADOW and without: pixel, then depth and colours.
+const FRAGMENTS: [&str; 3] = ["dithered", "shaded", "fragment"];
 
-/// How far each channel of each fragment is off; pixels that only the machine draws have no exact value. With SHADE, SHADOW
-/// or BLEND the depth alone: a fragment's colour is made on its way.
+/// How far each channel of each fragment is off; pixels that only the machine draws have no exact value. With SHADE, SHADOW,
+/// DITHER or BLEND the depth alone: a fragment's colour is made on its way.
 pub fn truth(machine: &Plan, frame: &Frame, ids: &[i32], tokens: &Tokens) -> Vec<Truth> {
     let of = |name: &&str| tokens.kinds().iter().find(|kind| kind.name == **name);
     let Some(kind) = FRAGMENTS.iter().find_map(|name| of(&name)) else { return Vec::new() };
     let exact = exact(machine, frame, ids, kind.met.iter().map(|token| token[0]).collect());
-    let colours_change = machine.blend.is_there() || machine.shadow.is_there() || machine.shade.is_there();
+    let colours_change = machine.blend.is_there()
+        || machine.shadow.is_there()
+        || machine.shade.is_there()
+        || machine.dither.rounds();
     let told_of = if colours_change { 1 } else { machine.channels().len() };
     let channels = machine.channels()[..told_of].iter().enumerate();
     let told = channels.map(|(place, channel)| {
@@ -30,7 +33,7 @@ pub fn truth(machine: &Plan, frame: &Frame, ids: &[i32], tokens: &Tokens) -> Vec
         };
         let budget = machine.proved_budget(channel);
         Truth {
-            kind: if machine.shadow.is_there() { FRAGMENTS[0] } else { FRAGMENTS[1] },
+            kind: kind.name,
             field: channel.name,
             bound: budget.map(|budget| budget.after_rounding().to_f64()).map_err(|why| why.to_string()),
             errors: kind.met.iter().map(error).collect(),

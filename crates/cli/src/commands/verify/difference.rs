@@ -59,7 +59,7 @@ fn cleared(trace: &Trace) -> Vec<Vec<u32>> {
         place.map_or(0, |place| trace.setting.memories[place].clear)
     };
     // Red, green and blue in one word, red the most significant; without BLEND there is no such memory.
-    let (bits, color) = (trace.plan.color.bits, clear("color"));
+    let (bits, color) = (trace.plan.stored_color().bits, clear("color"));
     let word = |place: usize| match place {
         0 => clear("depth") as u32, // b <= 32 bits
         1..=3 => (color >> (bits * (3 - place as u32))) as u32 & (u32::MAX >> (32 - bits)),

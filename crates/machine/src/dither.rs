@@ -1,0 +1,95 @@
+//! DITHER: its keys, and the bits of a colour that it leaves.
+
+use crate::channel::Precision;
+use crate::key::Domain::OneOf;
+use crate::key::{Domain, Key, number, word};
+use crate::machine::Machine;
+use crate::plan::Plan;
+
+/// Whether DITHER drops fragments by a pattern, as many as k_t says.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum ScreenDoor {
+    /// It drops none.
+    No,
+    /// It drops a fragment where the pattern's number is below the triangle's k_t.
+    Yes,
+}
+
+/// DITHER.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct Dither {
+    /// Bits n of a colour in the frame memory; 0: all b of them.
+    pub bits: u32,
+    /// It drops fragments.
+    pub screen_door: ScreenDoor,
+}
+
+impl Default for Dither {
+    /// No DITHER.
+    fn default() -> Self {
+        Dither { bits: 0, screen_door: ScreenDoor::No }
+    }
+}
+
+impl Dither {
+    /// The unit is there.
+    #[must_use]
+    pub fn is_there(&self) -> bool {
+        self.rounds() || self.drops()
+    }
+
+    /// It rounds colours to fewer bits.
+    #[must_use]
+    pub fn rounds(&self) -> bool {
+        self.bits > 0
+    }
+
+    /// It drops fragments.
+    #[must_use]
+    pub fn drops(&self) -> bool {
+        self.screen_door == ScreenDoor::Yes
+    }
+}
+
+impl Plan {
+    /// Colours as the frame memory has them: n bits with DITHER, else b.
+    #[must_use]
+    pub fn stored_color(&self) -> Precision {
+        let bits = if self.dither.rounds() { self.dither.bits } else { self.color.bits };
+        Precision { bits, ..self.color }
+    }
+
+    /// The step from one stored colour to the next, in LSB of the colours that PIXEL gives: (2^b - 1)/(2^n - 1), and 0 where DITHER
+    /// rounds none.
+    #[must_use]
+    pub fn dither_step(&self) -> f64 {
+        if self.dither.rounds() { self.color.max() as f64 / self.stored_color().max() as f64 } else { 0.0 }
+    }
+}
+
+/// The keys of DITHER.
+pub const KEYS: &[Key] = &[
+    Key {
+        absent: Some(0),
+        ..number!(
+            "dither.bits",
+            OneOf(&[0, 4, 5, 6, 7]),
+            "bits of a colour in the frame memory, rounded by an ordered 4x4 pattern; 0: all of them",
+            dither.bits
+        )
+    },
+    Key {
+        absent: Some(ScreenDoor::No as u32),
+        ..word!(
+            "dither.screen_door",
+            ScreenDoor { "no" => No, "yes" => Yes },
+            "a fragment is dropped where the pattern is below the triangle's k_t: no or yes",
+            dither.screen_door
+        )
+    },
+];
+
+/// A triangle has a k_t for DITHER to drop fragments by.
+pub(crate) fn drops(machine: &Machine) -> bool {
+    machine.dither.drops()
+}
