@@ -75,8 +75,7 @@ pub fn scan_lines(frame: &Frame, subpixel_bits: u32) -> Result<(Picture, Work), 
         .map(|primitive| Surface::new(primitive, frame.mode, subpixel_bits))
         .collect();
     let mut picture = Picture::cleared(frame, frame.height as usize);
-    let mut line =
-        Line { func, width: frame.width, picture: &mut picture, work: Work::default() };
+    let mut line = Line { func, width: frame.width, picture: &mut picture, work: Work::default() };
     let mut sweep = Sweep::new(&surfaces);
     for y in 0..frame.height {
         sweep.line(&surfaces, [frame.width, y], |active, crossings| {

@@ -5,6 +5,7 @@ mod common;
 mod blend;
 mod channels;
 mod corners;
+mod dither;
 mod exact;
 mod fast;
 mod named;

@@ -55,7 +55,9 @@ pub fn dither(plan: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
         pend_fence.when(frag_valid & ready, dropped & fence);
     }
 
-    m.comment("Colours: made a little smaller, so that all ones stay in range, then the pattern added and the lower bits cut.");
+    if plan.dither.rounds() {
+        m.comment("Colours: made a little smaller, so that all ones stay in range, then the pattern added and the lower bits cut.");
+    }
     let color = |name: &str| {
         if plan.dither.rounds() { cut(&m, plan, frag[name], pattern, name) } else { frag[name] }
     };

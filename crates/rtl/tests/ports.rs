@@ -112,6 +112,11 @@ fn ports_of_a_machine_with_blend() {
 }
 
 #[test]
+fn ports_of_a_machine_with_dither() {
+    check("dither.txt", include_str!("ports/dither.txt"));
+}
+
+#[test]
 fn ports_of_a_machine_with_shadow() {
     check("shadow.txt", include_str!("ports/shadow.txt"));
 }

@@ -16,8 +16,8 @@ const FRAGMENTS: [&str; 3] = ["dithered", "shaded", "fragment"];
 /// How far each channel of each fragment is off; pixels that only the machine draws have no exact value. With SHADE, SHADOW,
 /// DITHER or BLEND the depth alone: a fragment's colour is made on its way.
 pub fn truth(machine: &Plan, frame: &Frame, ids: &[i32], tokens: &Tokens) -> Vec<Truth> {
-    let of = |name: &&str| tokens.kinds().iter().find(|kind| kind.name == **name);
-    let Some(kind) = FRAGMENTS.iter().find_map(|name| of(&name)) else { return Vec::new() };
+    let of = |name: &'static str| Some((name, tokens.kinds().iter().find(|kind| kind.name == name)?));
+    let Some((name, kind)) = FRAGMENTS.into_iter().find_map(of) else { return Vec::new() };
     let exact = exact(machine, frame, ids, kind.met.iter().map(|token| token[0]).collect());
     let colours_change = machine.blend.is_there()
         || machine.shadow.is_there()
@@ -33,7 +33,7 @@ pub fn truth(machine: &Plan, frame: &Frame, ids: &[i32], tokens: &Tokens) -> Vec
         };
         let budget = machine.proved_budget(channel);
         Truth {
-            kind: kind.name,
+            kind: name,
             field: channel.name,
             bound: budget.map(|budget| budget.after_rounding().to_f64()).map_err(|why| why.to_string()),
             errors: kind.met.iter().map(error).collect(),
