@@ -12,14 +12,24 @@ fn page(name: &str) -> String {
     std::fs::read_to_string(path).unwrap_or_else(|error| panic!("{name}: {error}"))
 }
 
-/// The lines outside of fenced blocks.
-fn prose(text: &str) -> impl Iterator<Item = &str> {
-    let mut fenced = false;
-    text.lines().filter(move |line| {
+/// The paragraphs, headings and table rows outside of fenced blocks, each in one line.
+fn prose(text: &str) -> Vec<String> {
+    let (mut found, mut fenced, mut goes_on) = (Vec::<String>::new(), false, false);
+    for line in text.lines() {
         let fence = line.starts_with("```");
         fenced ^= fence;
-        !fence && !fenced
-    })
+        if fence || fenced || line.is_empty() {
+            goes_on = false;
+            continue;
+        }
+        let begins = line.starts_with(['#', '|', '-']);
+        match found.last_mut().filter(|_| goes_on && !begins) {
+            Some(paragraph) => *paragraph += &format!(" {}", line.trim()),
+            None => found.push(line.to_owned()),
+        }
+        goes_on = !line.starts_with(['#', '|']);
+    }
+    found
 }
 
 /// The numbers of a text, as `0.530`, without a point or comma at their end. `iCE40` is a name.
@@ -58,7 +68,7 @@ fn readme_is_one_screen() {
 fn every_figure_of_readme_has_a_row() {
     let (readme, results) = (page("README.md"), page("docs/results.md"));
     let (mut figures, mut claimed, mut claims) = (0, 0, false);
-    for line in prose(&readme) {
+    for line in &prose(&readme) {
         if let Some(title) = line.strip_prefix("## ") {
             claims = title == "What is claimed";
         }
