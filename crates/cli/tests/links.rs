@@ -111,7 +111,11 @@ fn every_page_stands_in_the_index() {
         if name == Path::new("README.md") {
             continue;
         }
-        assert!(index.contains(&format!("({})", name.display())), "docs/README.md does not name {}", name.display());
+        assert!(
+            index.contains(&format!("({})", name.display())),
+            "docs/README.md does not name {}",
+            name.display()
+        );
         checked += 1;
     }
     assert!(checked > 20, "{checked}");

@@ -71,7 +71,9 @@ fn walked(name: &str) -> (usize, usize) {
                 };
                 assert_eq!(output.status.code(), Some(code), "{name}:\n{text}\n{printed}");
                 if let Some(line) = missing(&printed, told) {
-                    panic!("{name}:\n{text}\ndoes not print, behind what is told before it:\n{line}\nbut\n{printed}");
+                    panic!(
+                        "{name}:\n{text}\ndoes not print, behind what is told before it:\n{line}\nbut\n{printed}"
+                    );
                 }
                 run += 1;
                 compared += told.lines().filter(|line| *line != "...").count();
@@ -123,13 +125,17 @@ fn commands_that_build_name_what_exists() {
             for line in text.lines().filter(|_| words.is_empty()) {
                 let said: Vec<&str> = line.split_whitespace().collect();
                 if let Some(at) = said.iter().position(|word| *word == "-p") {
-                    let tests = root().join("crates").join(said[at + 1].trim_start_matches("edgewalk-")).join("tests");
+                    let tests = root()
+                        .join("crates")
+                        .join(said[at + 1].trim_start_matches("edgewalk-"))
+                        .join("tests");
                     for suite in said.iter().filter_map(|word| word.strip_suffix("::")) {
                         assert!(tests.join(format!("{suite}.rs")).is_file(), "{line}");
                         checked += 1;
                     }
                 }
-                for file in said.iter().filter(|word| word.starts_with("docs/") || word.starts_with("tests/")) {
+                for file in said.iter().filter(|word| word.starts_with("docs/") || word.starts_with("tests/"))
+                {
                     assert!(root().join(file).exists(), "{line}");
                     checked += 1;
                 }
