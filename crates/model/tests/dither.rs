@@ -14,7 +14,8 @@ fn every_colour_becomes_the_step_of_golden() {
     let mut checked = 0u64;
     for bits in 5..=16 {
         for left in 4..bits.min(8) {
-            let plan = machine(&[("formats.color_bits", &bits.to_string()), ("dither.bits", &left.to_string())]);
+            let plan =
+                machine(&[("formats.color_bits", &bits.to_string()), ("dither.bits", &left.to_string())]);
             let (cut, golden) = (Cut::new(&plan), Dither { bits, left });
             let xb = plan.widths().x;
             for place in 0..64u32 {
@@ -24,7 +25,11 @@ fn every_colour_becomes_the_step_of_golden() {
             for color in 0..1u32 << bits {
                 for place in 0..16u32 {
                     let step = cut.color(color, pattern(place % 4, place / 4));
-                    assert_eq!(u64::from(step), golden.ordered(color.into(), place % 4, place / 4), "{bits}, {left}, {color}");
+                    assert_eq!(
+                        u64::from(step),
+                        golden.ordered(color.into(), place % 4, place / 4),
+                        "{bits}, {left}, {color}"
+                    );
                     checked += 1;
                 }
             }
@@ -45,14 +50,17 @@ fn dithered_pictures_are_plain_pictures_rounded() {
     // The port is the same, so are the vertices.
     let (full, few) = (draw(&plain), draw(&rounded));
     assert_eq!(full.counters, few.counters);
-    assert!(full.z == few.z && full.coverage == few.coverage && full.writes == few.writes && full.id == few.id);
+    assert!(
+        full.z == few.z && full.coverage == few.coverage && full.writes == few.writes && full.id == few.id
+    );
     let mut checked = 0;
     for (at, (full, few)) in full.rgb.iter().zip(&few.rgb).enumerate() {
         let (x, y) = (at as u32 % plain.width, at as u32 / plain.width);
         assert_eq!(full.map(|color| golden.ordered(color, x, y)), *few, "{x}, {y}");
         checked += 1;
     }
-    let (fast, path) = fast::draw(&rounded, triangles.iter().copied(), DrawState::default()).expect("its own vertices");
+    let (fast, path) =
+        fast::draw(&rounded, triangles.iter().copied(), DrawState::default()).expect("its own vertices");
     assert!(path == Path::Fast && fast.rgb == few.rgb);
     assert_eq!(checked, 640 * 480);
 }
