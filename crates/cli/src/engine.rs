@@ -6,9 +6,9 @@ mod native;
 use crate::input::{PortFrame, to_port};
 use crate::progress::bar;
 use anyhow::{Result, anyhow};
-use edgewalk_golden::Drawing;
 use edgewalk_host::draw;
 use edgewalk_host::port::of_port;
+use edgewalk_host::raster::golden_drawing;
 pub use edgewalk_host::raster::{Raster, from_golden, golden_fill};
 use edgewalk_host::raster::{from_machine, from_model};
 use edgewalk_lockstep::StallKind;
@@ -137,7 +137,7 @@ pub fn draw_bands(
 ) -> Result<()> {
     match engine {
         Engine::Golden => {
-            let drawing = Drawing::new(frame, golden_fill(machine));
+            let drawing = golden_drawing(frame, machine);
             let mut bands = draw::bands(frame.height, lines(frame.width, GOLDEN_BAND));
             bands.try_for_each(|lines| {
                 take(Raster { host: frame.host, ..from_golden(drawing.lines(lines), machine) })

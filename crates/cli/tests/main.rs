@@ -8,6 +8,7 @@ mod bench;
 mod blend;
 mod compare;
 mod demo;
+mod dither;
 mod documents;
 mod explain;
 mod extra;

@@ -1,9 +1,9 @@
 //! The layers of a blended pixel: golden's and the machine's, one over the other, with error and bound.
 
 use anyhow::Result;
-use edgewalk_golden::{Drawing, Step};
+use edgewalk_golden::Step;
 use edgewalk_host::port::{PortFrame, to_port};
-use edgewalk_host::raster::golden_fill;
+use edgewalk_host::raster::golden_drawing;
 use edgewalk_judge::compare::{Errors, Lights};
 use edgewalk_machine::Plan;
 use edgewalk_model::{Drawn, Stalls, render_passes_with};
@@ -41,7 +41,7 @@ pub fn layers(frame: &Frame, machine: &Plan, (x, y): (u32, u32)) -> Result<Vec<L
     let mut lights = Lights::of(machine, frame, port.lights.iter().map(|map| &map.words[..]).collect(), None);
     let (errors, max, mut bound) = (Errors::of(machine), machine.color.max() as f64, 0.5);
     let mut layers = Vec::new();
-    let drawing = Drawing::new(frame, golden_fill(machine));
+    let drawing = golden_drawing(frame, machine);
     let picture = |step| {
         let Step::Stored { at, id, z, own, light, share, kt, back, blend, .. } = step else { return };
         if at != x as usize {

@@ -2,6 +2,7 @@
 
 pub mod accumulators;
 mod additions;
+mod dithered;
 mod layers;
 mod table_read;
 mod turned;
@@ -15,11 +16,12 @@ mod page;
 
 use additions::{Walk, walk};
 use anyhow::Result;
-use edgewalk_golden::{Order, ShadowMaps, draw, fragments};
+use dithered::{Dithered, dithered};
+use edgewalk_golden::{Order, ShadowMaps, fragments};
 use edgewalk_host::draw::{Pixel, draw_frame};
 use edgewalk_host::extra;
 use edgewalk_host::port::{PortFrame, port_triangle, to_port};
-use edgewalk_host::raster::golden_fill;
+use edgewalk_host::raster::golden_drawing;
 use edgewalk_host::shade::apart;
 use edgewalk_machine::{EdgeKind, Fill, Plan};
 use edgewalk_model::Waits;
@@ -70,6 +72,9 @@ pub struct Explanation {
     /// Why there are none of a scene, though the machine could look up maps.
     #[serde(skip_serializing_if = "Option::is_none")]
     no_shadows: Option<String>,
+    /// With DITHER, where the machine's own colours are known: as `machine`, of a frame whose colours nothing changes on their way.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    dithered: Option<Dithered>,
     /// Where the machine has exact fill and exact edges, and draws the triangle.
     machine: Option<Walk>,
 }
@@ -113,7 +118,7 @@ pub struct Input<'a> {
 /// What of the frame the machine cannot take.
 pub fn explain(input: &Input, (x, y): (u32, u32)) -> Result<Explanation> {
     let Input { machine, frame, scene, order } = *input;
-    let picture = draw(frame, golden_fill(machine));
+    let picture = golden_drawing(frame, machine).lines(0..frame.height);
     let parts = match frame.shading {
         Some(_) => apart(frame, machine)?.unwrap_or_else(|| vec![frame.clone()]),
         None => Vec::new(),
@@ -175,6 +180,7 @@ pub fn explain(input: &Input, (x, y): (u32, u32)) -> Result<Explanation> {
         },
         shadows,
         no_shadows,
+        dithered: walked.as_ref().and_then(|walk| dithered(machine, frame, &walk.output, (x, y))),
         machine: walked,
     })
 }

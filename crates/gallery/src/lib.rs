@@ -19,6 +19,8 @@ mod lamp;
 mod shadows;
 mod glass;
 mod mach_bands;
+mod quantization;
+mod hidden_surfaces;
 mod missed_highlight;
 mod orientation;
 mod perspective;
@@ -32,7 +34,7 @@ pub use exhibit::{Exhibit, Image, View};
 pub type Maker = fn() -> anyhow::Result<Exhibit>;
 
 /// All of them, in the order in which they are shown, by the names of their files.
-pub const EXHIBITS: [(&str, Maker); 17] = [
+pub const EXHIBITS: [(&str, Maker); 19] = [
     ("worked-example", || Ok(worked_example::worked_example())),
     ("polygons", polygons::polygons),
     ("lights", lights::lights),
@@ -44,6 +46,8 @@ pub const EXHIBITS: [(&str, Maker); 17] = [
     ("shadows", shadows::shadows),
     ("glass", glass::glass),
     ("mach-bands", mach_bands::mach_bands),
+    ("quantization", quantization::quantization),
+    ("hidden-surfaces", hidden_surfaces::hidden_surfaces),
     ("missed-highlight", missed_highlight::missed_highlight),
     ("orientation", || Ok(orientation::orientation())),
     ("perspective", perspective::perspective),

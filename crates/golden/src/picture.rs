@@ -1,6 +1,7 @@
 //! What is on the screen after a frame.
 
 use crate::depth::{compare, passes};
+use crate::dither::left_out;
 use crate::draw_list::{DrawList, Item};
 use crate::fill::Fill;
 use crate::fragment::{Fragment, Weight};
@@ -54,12 +55,23 @@ pub fn draw(frame: &Frame, fill: Fill) -> Picture {
 }
 
 /// A frame ready to be drawn, also a part at a time: no pixel depends on another.
-pub struct Drawing<'a>(DrawList<'a>);
+pub struct Drawing<'a> {
+    list: DrawList<'a>,
+    /// What is blended is left out by a pattern instead; bits of k_t below 1.
+    screen_door: Option<u32>,
+}
 
 impl<'a> Drawing<'a> {
     /// Of the triangles and polygons of `frame`.
     pub fn new(frame: &'a Frame, fill: Fill) -> Self {
-        Self(DrawList::new(frame, fill))
+        Self { list: DrawList::new(frame, fill), screen_door: None }
+    }
+
+    /// The same with a screen door: a triangle that is mixed by its k_t, rounded to so many bits, is drawn opaque, and left out where the
+    /// [pattern](crate::dither::left_out) says so.
+    #[must_use]
+    pub fn with_screen_door(self, kt_bits: u32) -> Self {
+        Self { screen_door: Some(kt_bits), ..self }
     }
 
     /// Some lines of the picture, as a picture.
@@ -69,7 +81,7 @@ impl<'a> Drawing<'a> {
 
     /// The same; `watch` sees every depth test and every colour stored, in order.
     pub fn watched(&self, lines: Range<u32>, mut watch: impl FnMut(Step)) -> Picture {
-        let list = &self.0;
+        let list = &self.list;
         let (frame, width) = (list.frame(), list.frame().width);
         let mut picture = Picture::cleared(frame, lines.len());
         let mut nearest = vec![NO_TRIANGLE; picture.z.len()];
@@ -83,7 +95,10 @@ impl<'a> Drawing<'a> {
                 let (picture, nearest, watch) = (&mut picture, &mut nearest[..], &mut watch);
                 let shading = frame.shading.as_ref();
                 let brush = shading.and_then(|shading| PixelBrush::new(shading, id as usize));
-                let mut pen = Pen { list, state, id, brush, picture, nearest, watch };
+                let screen_door = self.screen_door.filter(|_| state.blend == Blending::Mix);
+                let state =
+                    if screen_door.is_some() { State { blend: Blending::Off, ..state } } else { state };
+                let mut pen = Pen { list, state, screen_door, id, brush, picture, nearest, watch };
                 match item {
                     Item::Triangle(triangle) => {
                         let plot = |f: &Fragment| pen.plot(at(f.x, f.y), f);
@@ -160,6 +175,7 @@ pub enum Step {
 struct Pen<'a, F> {
     list: &'a DrawList<'a>,
     state: State,
+    screen_door: Option<u32>,
     id: i32,
     /// Where the equation holds at each pixel.
     brush: Option<PixelBrush<'a>>,
@@ -172,6 +188,14 @@ struct Pen<'a, F> {
 impl<F: FnMut(Step)> Pen<'_, F> {
     fn plot<const N: usize, W: Weight>(&mut self, at: usize, fragment: &Fragment<N, W>) {
         let (list, state) = (self.list, self.state);
+        if let Some(bits) = self.screen_door {
+            let one = f64::from(1u32 << bits);
+            // A triangle has one, that of its first vertex.
+            let kt = (fragment.vertices[0].kt * one).round_ties_even() / one;
+            if left_out(kt, fragment.x, fragment.y) {
+                return;
+            }
+        }
         self.picture.coverage[at] += 1;
         let z = fragment.z();
         if let Some(func) = state.depth {

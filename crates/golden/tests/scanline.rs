@@ -79,12 +79,12 @@ fn random_frames_equal_a_depth_buffer() {
         cut += u32::from(work.stretches > 0 && work.deepest > 1);
     }
     println!("1500 frames, {shown} pixels of {fragments} fragments; {cut} with polygons over each other");
-    assert!(shown > 500_000 && fragments > 2 * shown && cut > 700);
+    assert!(shown > 500_000 && 2 * fragments > 3 * shown && cut > 700);
 }
 
 #[test]
 fn scenes_equal_a_depth_buffer() {
-    for name in ["torus", "teapot", "sphere"] {
+    for name in ["torus", "torus-knot", "terrain"] {
         let scene = Scene::builtin(name).unwrap_or_else(|error| panic!("{error}"));
         let frame = scene.frame(160, 120, 1000.0, ShadeMode::Gouraud);
         let (work, shown) = same(&frame);

@@ -1,7 +1,7 @@
 //! A frame through golden, or through a machine.
 
 use crate::port::{PortFrame, of_port, to_port};
-use crate::raster::{LightPass, Raster, from_fast, from_golden, golden_fill};
+use crate::raster::{LightPass, Raster, from_fast, from_golden, golden_drawing, golden_fill};
 use anyhow::{Result, anyhow};
 use edgewalk_machine::{Plan, PortVertex};
 use edgewalk_model::fast::{Path, Reason, Refusal, Renderer};
@@ -11,7 +11,8 @@ use std::ops::Range;
 /// The golden picture on the machine's screen.
 #[must_use]
 pub fn golden(frame: &edgewalk_scene::Frame, machine: &Plan) -> Raster {
-    Raster { host: frame.host, ..from_golden(edgewalk_golden::draw(frame, golden_fill(machine)), machine) }
+    let picture = golden_drawing(frame, machine).lines(0..frame.height);
+    Raster { host: frame.host, ..from_golden(picture, machine) }
 }
 
 /// Golden's picture of an opaque frame, by one active list of all edges.

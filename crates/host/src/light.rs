@@ -158,7 +158,7 @@ pub fn mapper(machine: &Plan) -> Result<Plan> {
     let segments = if machine.shadow.draws_map() { 1 } else { machine.segments };
     let mapper = machine.with(|keys| {
         (keys.width, keys.height) = (machine.shadow.size, machine.shadow.size);
-        (keys.z, keys.blend, keys.shadow) = (z, blend, plain.shadow);
+        (keys.z, keys.dither, keys.blend, keys.shadow) = (z, plain.dither, blend, plain.shadow);
         (keys.extra, keys.adders, keys.segments, keys.tag_bits) = (0, 1, segments, 0);
     });
     Ok(mapper.plan()?)

@@ -71,11 +71,12 @@ pub fn check(frame: &Frame, machine: &Plan) -> Result<()> {
     ))
 }
 
-/// BLEND, and one k_t for a triangle or more.
+/// BLEND, and one k_t for a triangle or more; a machine with a screen door mixes by that.
 fn blending(frame: &Frame, machine: &Plan, needs: &mut Vec<Need>) {
     let passes = frame.passes();
     let why = passes.iter().find_map(|pass| match pass.state.blend {
         Blending::Off if pass.state.color_write => None,
+        Blending::Mix if machine.dither.drops() && pass.state.color_write => None,
         Blending::Off => Some(
             "colour_write 0: a machine without BLEND writes the colour of every fragment that passes"
                 .to_owned(),

@@ -218,12 +218,12 @@ pub fn port_triangle(
         if machine.shadow.is_there() {
             values.extend_from_slice(&light[corner]);
         }
-        if machine.blend.is_there() {
+        if machine.blend.is_there() || machine.has_triangle_kt() {
             values.push(if mixes { v.kt } else { 0.0 });
         }
         if mixes && machine.has_triangle_kt() && mode == ShadeMode::Gouraud && v.kt != triangle.0[0].kt {
             return Err(anyhow!(
-                "kt = {} after {}: blend.kind = constant has one for a triangle; add --set blend.kind=interpolated, or draw with mode flat",
+                "kt = {} after {}: blend.kind = constant, as dither.screen_door = yes, has one for a triangle; add --set blend.kind=interpolated, or draw with mode flat",
                 v.kt,
                 triangle.0[0].kt
             ))

@@ -126,6 +126,13 @@ pub fn golden_fill(machine: &Plan) -> edgewalk_golden::Fill {
     }
 }
 
+/// Golden's drawing of a frame by the rules of this machine, with its screen door.
+#[must_use]
+pub fn golden_drawing<'a>(frame: &'a edgewalk_scene::Frame, machine: &Plan) -> edgewalk_golden::Drawing<'a> {
+    let drawing = edgewalk_golden::Drawing::new(frame, golden_fill(machine));
+    if machine.dither.drops() { drawing.with_screen_door(machine.blend.kt_bits) } else { drawing }
+}
+
 /// A golden picture, on the screen of this machine and with its channels.
 #[must_use]
 pub fn from_golden(picture: edgewalk_golden::Picture, machine: &Plan) -> Raster {

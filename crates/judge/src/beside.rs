@@ -3,9 +3,8 @@
 
 use crate::compare::{Bands, Comparison, compare_shaded};
 use anyhow::{Context as _, Result};
-use edgewalk_golden::Drawing;
 use edgewalk_host::draw;
-use edgewalk_host::raster::{Raster, from_golden, golden_fill};
+use edgewalk_host::raster::{Raster, from_golden, golden_drawing};
 use edgewalk_host::reach::Reach;
 use edgewalk_host::shade::Proof;
 use edgewalk_machine::Plan;
@@ -59,7 +58,7 @@ pub fn beside(
         })?;
         return found.context(no_lines);
     }
-    let drawing = Drawing::new(frame, golden_fill(machine));
+    let drawing = golden_drawing(frame, machine);
     let (mut bands, mut top) = (None, 0);
     draw((BAND / machine.width).max(1), &mut |drawn| {
         let cycles = drawn.cycles.as_ref();

@@ -266,9 +266,10 @@ fn blended(
             let error = tally.color_error(golden.rgb[i], i, drawn);
             found.pixels += 1;
             found.layers = found.layers.max(layers.stored[i]);
-            found.bound = found.bound.max(layers.bound[i]);
-            found.of_bound = found.of_bound.max(error / layers.bound[i]);
-            found.beyond += u64::from(error.is_nan() || error > layers.bound[i] + 1e-9);
+            let bound = layers.bound[i] + tally.color.step;
+            found.bound = found.bound.max(bound);
+            found.of_bound = found.of_bound.max(error / bound);
+            found.beyond += u64::from(error.is_nan() || error > bound + 1e-9);
         } else if golden.z[i] == 1.0 {
             c.background_wrong += u64::from(!tally.is_background(i, frame.clear, drawn));
         } else {

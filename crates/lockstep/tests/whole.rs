@@ -22,7 +22,7 @@ const DIRECTED: [&str; 5] =
 
 /// What only BLEND, BUMP, SHADE, PROJECT and SHADOW alone meet for certain (`tests/units.rs`): triangles of one pixel, and of two materials, come too far
 /// apart, and few of their depths are a texel's, or quotients on an edge.
-const ALONE: [&str; 8] = [
+const ALONE: [&str; 9] = [
     "color_forward_entry",
     "color_forward_write",
     "material_change",
@@ -31,6 +31,7 @@ const ALONE: [&str; 8] = [
     "map_edge",
     "depth_to_end",
     "slope_lowest",
+    "square_cut",
 ];
 
 /// Machines with SHADE read tables of hundreds of words, so three of sixteen may have it.

@@ -52,6 +52,18 @@ impl Cut {
         (self.scaled(color) + self.threshold(pattern)) >> self.dropped()
     }
 
+    /// Not hardware: a colour of b bits that becomes this step in every place. The smallest whose part of 2^b has nothing below the step: as
+    /// the colour grows by 1 that part does so or stays, so there is one.
+    #[must_use]
+    pub fn color_of(&self, step: u32) -> u32 {
+        let part = step << self.dropped();
+        let mut color = part;
+        while self.scaled(color) < part {
+            color += part - self.scaled(color);
+        }
+        color
+    }
+
     /// d: bits that are cut off.
     fn dropped(&self) -> u32 {
         self.bits[0] - self.bits[1]

@@ -22,6 +22,10 @@ fn every_colour_becomes_the_step_of_golden() {
                 let (x, y) = (place % 8 + 40, place / 8 + 16);
                 assert_eq!(cut.pattern(y << xb | x), pattern(x, y), "{x}, {y}");
             }
+            for step in 0..1u32 << left {
+                let color = cut.color_of(step);
+                assert!((0..16).all(|place| cut.color(color, place) == step) && color >> bits == 0, "{step}");
+            }
             for color in 0..1u32 << bits {
                 for place in 0..16u32 {
                     let step = cut.color(color, pattern(place % 4, place / 4));

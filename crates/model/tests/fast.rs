@@ -3,7 +3,9 @@
 use crate::common::{Triangle, moved, random_values, render};
 use edgewalk_machine::key::Domain;
 use edgewalk_machine::keys::KEYS;
-use edgewalk_machine::{BlendKind, ForeignVertex, Hazard, Machine, Plan, ShadeKind, ShadowLight, Walk};
+use edgewalk_machine::{
+    BlendKind, Dither, ForeignVertex, Hazard, Machine, Plan, ScreenDoor, ShadeKind, ShadowLight, Walk,
+};
 use edgewalk_model::fast::{self, Path, Reason, Refusal};
 use edgewalk_model::{Activity, DrawState, Events, Frame, Stalls};
 use rand::{Rng, SeedableRng, rngs::StdRng};
@@ -31,6 +33,12 @@ fn random_machine(rng: &mut impl Rng) -> Plan {
         }
         if rng.random_bool(0.97) {
             machine.shade.kind = ShadeKind::None; // and others
+        }
+        if machine.blend.kind != BlendKind::None || rng.random_bool(0.6) {
+            machine.dither = Dither::default();
+        }
+        if rng.random_bool(0.6) {
+            machine.dither.screen_door = ScreenDoor::No; // others are ticked
         }
         machine.shade.walk = Walk::Register; // triangles out to the guard band, and records of zeros: the walks are long
         machine.shade.record_bits = 8;

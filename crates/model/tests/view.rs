@@ -31,7 +31,8 @@ fn watch(plan: &Plan, triangles: &[Triangle], stalls: Stalls, mut see: impl FnMu
 
 fn machines(count: usize, rng: &mut Pcg64Mcg) -> Vec<Plan> {
     let small = [("screen.width", "40"), ("screen.height", "24")];
-    let mut machines = vec![machine(&small), machine(&[])];
+    let door = [small[0], small[1], ("dither.bits", "5"), ("dither.screen_door", "yes")];
+    let mut machines = vec![machine(&small), machine(&[]), machine(&door), machine(&door[..3])];
     let kinds = ["none", "fast-phong", "none", "phong"].into_iter().cycle();
     let shading =
         |kind| [small[0], small[1], ("shade.kind", kind), ("texture.bits", "4"), ("term.record_bits", "8")];

@@ -32,7 +32,7 @@ pub struct Errors {
     /// LSB that a 1 of the pictures stands for.
     unit: f64,
     /// Of a colour, LSB: the step by which DITHER rounds it; else 0.
-    step: f64,
+    pub step: f64,
     budget: Result<ErrorBudget, NoBound>,
     largest: f64,
     sums: Sums,

@@ -5,8 +5,8 @@
 
 use super::lit::{Lights, Seen};
 use super::order::apart;
-use edgewalk_golden::{Drawing, Step};
-use edgewalk_host::raster::golden_fill;
+use edgewalk_golden::Step;
+use edgewalk_host::raster::golden_drawing;
 use edgewalk_machine::Plan;
 use edgewalk_numerics::blend_error_of_golden;
 use edgewalk_scene::{Blending, Frame};
@@ -56,7 +56,8 @@ impl Layers {
     pub fn of(machine: &Plan, frame: &Frame, mut lights: Option<&mut Lights>) -> Option<Layers> {
         let passes = frame.passes();
         let shares = lights.is_some() && machine.shadow.transmits();
-        if passes.len() == 1 && passes[0].state.blend == Blending::Off && !shares {
+        let mixes = passes[0].state.blend != Blending::Off && !machine.dither.drops();
+        if passes.len() == 1 && !mixes && !shares {
             return None;
         }
         let pixels = frame.width as usize * frame.height as usize;
@@ -69,7 +70,7 @@ impl Layers {
         };
         let width = frame.width as usize;
         let (apart, errors) = (apart(machine, None), Errors::of(machine));
-        Drawing::new(frame, golden_fill(machine)).watched(0..frame.height, |step| match step {
+        golden_drawing(frame, machine).watched(0..frame.height, |step| match step {
             Step::Tested { at, id, stored, gap } => {
                 let sure = apart.map(|apart| if stored < 0 { apart.cleared } else { apart.triangles });
                 layers.open[at] |= sure.is_none_or(|sure| gap < sure) && !same_depth(frame, id, stored);

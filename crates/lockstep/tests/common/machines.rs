@@ -69,8 +69,8 @@ fn draw(rng: &mut Pcg64Mcg) -> Machine {
     machine.extras.iter_mut().for_each(|extra| within(&mut extra.precision));
     let kt = &mut machine.blend;
     kt.kt_vertex = kt.kt_vertex.min(kt.kt_fraction);
-    if kt.kind != BlendKind::None || rng.random() {
-        machine.dither = Dither::default(); // with BLEND there is none, and half of the others have none
+    if kt.kind != BlendKind::None || rng.random_bool(0.25) {
+        machine.dither = Dither::default(); // with BLEND there is none, and some of the others have none
     }
     if machine.dither.bits >= machine.color.bits {
         machine.dither.bits = 0;

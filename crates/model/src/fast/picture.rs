@@ -52,7 +52,10 @@ impl<P: Pixel> Picture<P> {
             self.frame = 0;
         }
         self.frame += 1;
-        self.clear = pixel(plan, plan.z.max(), state.clear, self.stamp());
+        // The colour of the empty screen is not rounded: one is kept that no place of the pattern changes.
+        let cut = plan.dither.rounds().then(|| Cut::new(plan));
+        let clear = state.clear.map(|c| cut.as_ref().map_or(c, |cut| cut.color_of(c as u32).into())); // b <= 16 bits
+        self.clear = pixel(plan, plan.z.max(), clear, self.stamp());
         if details {
             refill(&mut self.details.coverage, pixels, 0);
             refill(&mut self.details.writes, pixels, 0);
@@ -68,25 +71,20 @@ impl<P: Pixel> Picture<P> {
 
     /// Stored depths and colours of these pixels; with DITHER of n bits.
     pub(super) fn outputs(&self, plan: &Plan, pixels: Range<usize>) -> (Vec<u64>, Vec<[u64; 3]>) {
-        let (first, cut) = (pixels.start, plan.dither.rounds().then(|| Cut::new(plan)));
+        let (first, width) = (pixels.start, plan.width as usize);
         let stored = self.pixels.get(pixels).unwrap_or_default().iter();
-        stored
-            .enumerate()
-            .map(|(place, pixel)| {
-                let shown = pixel.or_clear(self.clear, self.stamp());
-                let drawn = *pixel >= self.stamp();
-                let rgb = match &cut {
-                    Some(cut) if drawn => {
-                        let (x, y) =
-                            ((first + place) % plan.width as usize, (first + place) / plan.width as usize);
-                        let pattern = cut.pattern((y << plan.widths().x | x) as u32);
-                        shown.rgb().map(|color| cut.color(color as u32, pattern).into()) // b <= 16 bits
-                    }
-                    _ => shown.rgb(),
-                };
-                (u64::from(shown.depth()), rgb)
-            })
-            .unzip()
+        let (z, mut rgb): (Vec<u64>, Vec<[u64; 3]>) = stored
+            .map(|pixel| pixel.or_clear(self.clear, self.stamp()))
+            .map(|p| (u64::from(p.depth()), p.rgb()))
+            .unzip();
+        if plan.dither.rounds() {
+            let cut = Cut::new(plan);
+            for (place, rgb) in (first..).zip(&mut rgb) {
+                let pattern = cut.pattern(((place / width) << plan.widths().x | (place % width)) as u32);
+                *rgb = rgb.map(|color| cut.color(color as u32, pattern).into()); // b <= 16 bits
+            }
+        }
+        (z, rgb)
     }
 }
 

@@ -5,7 +5,7 @@ use edgewalk_machine::Plan;
 
 /// A stored pixel: depth in the low 32 bits, colour above, the number of its frame in the high 8. Numbers
 /// only grow, so that pixels of earlier frames are less than any of this one.
-pub(super) trait Pixel: Copy + Default + Ord {
+pub(super) trait Pixel: Copy + Default + Eq {
     /// Lane of an interpolated colour; the word stands at its left end.
     type Color: Copy + Default;
     /// Width of that lane.

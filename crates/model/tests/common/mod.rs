@@ -10,7 +10,7 @@ pub mod shade;
 pub use check::Check;
 pub use rule::inside;
 
-use edgewalk_machine::{BlendKind, Channel, Dither, Kind, Machine, Plan, PortVertex, ShadeKind};
+use edgewalk_machine::{Channel, Dither, Kind, Machine, Plan, PortVertex, ShadeKind};
 use edgewalk_model::tokens::output;
 use edgewalk_model::{DrawState, Frame, Sample, Stalls};
 use rand::Rng;
@@ -105,8 +105,8 @@ pub fn random_triangle(plan: &Plan, size: f64, rng: &mut impl Rng) -> Triangle {
     })
 }
 
-/// A machine with every key drawn at random, that can be built; `fixed` settings stay. Without TERM and SHADE, if they do not
-/// ask for them: those make colours of their own, from records and tables.
+/// A machine with every key drawn at random, that can be built; `fixed` settings stay. Without TERM and SHADE and
+/// without DITHER, if they do not ask for them: those make colours of their own, from records, tables and a pattern.
 pub fn random_machine(fixed: &[(&str, &str)], rng: &mut impl Rng) -> Plan {
     use edgewalk_machine::key::Domain;
     use edgewalk_machine::keys::KEYS;
@@ -121,9 +121,7 @@ pub fn random_machine(fixed: &[(&str, &str)], rng: &mut impl Rng) -> Plan {
             (key.set)(&mut machine, value);
         }
         machine.shade.kind = ShadeKind::None;
-        if machine.blend.kind != BlendKind::None || rng.random_bool(0.6) {
-            machine.dither = Dither::default(); // it clashes with BLEND, and others are wanted, too
-        }
+        machine.dither = Dither::default();
         for (key, value) in fixed {
             machine.set(key, value).expect("a key of the machine");
         }
