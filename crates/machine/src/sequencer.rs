@@ -83,6 +83,12 @@ mod tests {
     }
 
     #[test]
+    fn specification_prints_the_listing() {
+        let printed = include_str!("../../../docs/machine.md");
+        assert!(printed.contains(&format!("\n```\n{LISTING}```\n")), "docs/machine.md has another program");
+    }
+
+    #[test]
     fn errors_of_listing_name_their_line() {
         for (text, error) in [
             ("rest\nlode one", "line 2: no such operation: lode one"),
