@@ -91,8 +91,7 @@ impl Reader {
         let operation = clauses.next().unwrap_or("");
         let text = line.split_whitespace().collect::<Vec<_>>().join(" ");
         let (step, factor, write) = self.operation(operation)?;
-        let mut word =
-            Word { text, step, factor, write, give: None, control: Control::Next, act: None };
+        let mut word = Word { text, step, factor, write, give: None, control: Control::Next, act: None };
         for clause in clauses {
             self.clause(clause, &mut word)?;
         }
@@ -100,10 +99,7 @@ impl Reader {
     }
 
     #[allow(clippy::type_complexity, reason = "the three parts of one text")]
-    fn operation(
-        &self,
-        text: &str,
-    ) -> Result<(Option<Step>, Option<(Factor, Row)>, Option<Write>), String> {
+    fn operation(&self, text: &str) -> Result<(Option<Step>, Option<(Factor, Row)>, Option<Write>), String> {
         let (text, write) = match text.split_once("->") {
             Some((text, to)) => (text.trim(), Some(self.write(to.trim())?)),
             None => (text, None),

@@ -66,9 +66,7 @@ impl Lane {
             Base::Nothing => Number::default(),
             Base::Same => self.now,
             Base::Twice => Number { a: 2 * a, w: w.wrapping_mul(2) },
-            Base::Masked => {
-                Number { a: a >> formats.center_fraction << formats.center_fraction, w }
-            }
+            Base::Masked => Number { a: a >> formats.center_fraction << formats.center_fraction, w },
         };
         let row = match addend.operand {
             Operand::Row => addend.row,

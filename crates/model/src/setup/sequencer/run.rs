@@ -5,10 +5,10 @@ use super::lane::{Addend, Formats, Lane, Number, signed};
 use super::{Ran, SlowSetup};
 use crate::setup::Culled;
 use crate::tokens::{Prim, sign_extend};
+use edgewalk_machine::PortVertex;
 use edgewalk_machine::sequencer::word::{
     Act, Control, Corner, Drop, Factor, Give, Only, Part, Row, Step, Word,
 };
-use edgewalk_machine::PortVertex;
 
 /// A word that waits this long sees what a row or a check has become.
 const BEHIND: u32 = 3;
