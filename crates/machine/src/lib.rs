@@ -36,6 +36,7 @@ mod stamp;
 pub mod plan;
 pub mod record;
 pub mod vertex;
+pub mod sequencer;
 pub mod draw;
 pub mod activity;
 pub mod field;
