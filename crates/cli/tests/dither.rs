@@ -20,9 +20,7 @@ fn dithered_pictures_pass_beside_golden() {
     let folder = tempfile::tempdir().expect("a folder");
     for (bits, engine) in [("4", "fast"), ("5", "model"), ("6", "rtl"), ("7", "fast")] {
         let bits = format!("dither.bits={bits}");
-        let args =
-            [&["render", "torus", "--triangles", "400", "--engine", engine, "--set", &bits][..], &SMALL]
-                .concat();
+        let args = [&["render", "torus", "--engine", engine, "--set", &bits][..], &SMALL].concat();
         let output = edgewalk(folder.path(), &args);
         let said = text(&output);
         assert!(output.status.success(), "{said}");
@@ -118,18 +116,7 @@ fn the_scan_line_engine_draws_what_golden_draws() {
     let folder = tempfile::tempdir().expect("a folder");
     let made = edgewalk(
         folder.path(),
-        &[
-            "triangles",
-            "torus",
-            "--triangles",
-            "300",
-            "--out",
-            "t.tri",
-            SMALL[0],
-            SMALL[1],
-            SMALL[2],
-            SMALL[3],
-        ],
+        &["triangles", "torus", "--out", "t.tri", SMALL[0], SMALL[1], SMALL[2], SMALL[3]],
     );
     assert!(made.status.success(), "{}", text(&made));
     for engine in ["golden", "scanline"] {

@@ -223,3 +223,38 @@ fn every_figure_of_the_page_is_that_of_the_json() {
     println!("checked {rows} rows, bounds {bounds:?}");
     assert_eq!((rows, heads), (48, 2));
 }
+
+/// Line 100 of the lecture's polygon crosses two edges; line 48 is the Ymax of B-A, where A-F enters.
+#[test]
+fn polygons_show_their_edge_table_and_active_edges() {
+    let on = |y| explain("docs/scenes/polygon.tri", 100, y)["polygons"][0].clone();
+    let middle = on(100);
+    assert!(middle["table"].as_str().expect("a table").starts_with("bucket  edge"), "{middle}");
+    let active = middle["active"].as_array().expect("a list");
+    let edges: Vec<_> =
+        active.iter().map(|edge| (edge["edge"].as_str().expect("a name"), numbers_of(edge))).collect();
+    assert_eq!(edges, [("A-F", [32.0, 32.0, 44.0]), ("C-D", [208.0, 208.0, 76.0])], "{middle}");
+    assert_eq!(middle["span"], serde_json::json!([32, 208]));
+    let at_a = on(48);
+    assert_eq!(
+        (&at_a["enters"], &at_a["left"]),
+        (&serde_json::json!(["A-F"]), &serde_json::json!(["B-A"])),
+        "{at_a}"
+    );
+    let output = Command::new(env!("CARGO_BIN_EXE_edgewalk"))
+        .args(["explain", "docs/scenes/polygon.tri", "100", "100"])
+        .current_dir(concat!(env!("CARGO_MANIFEST_DIR"), "/../.."))
+        .output()
+        .expect("the program runs");
+    let said = String::from_utf8_lossy(&output.stdout);
+    for wanted in
+        ["polygon 0: its edge table", "active edges on line 100", "pixel 100 lies in the span 32..208"]
+    {
+        assert!(said.contains(wanted), "{wanted}: {said}");
+    }
+}
+
+/// x, column and lines left of an active edge.
+fn numbers_of(edge: &Value) -> [f64; 3] {
+    ["x", "column", "lines_left"].map(|key| edge[key].as_f64().expect("a number"))
+}

@@ -6,6 +6,7 @@ use std::process::Command;
 
 /// File, and what to draw it with.
 const DRAWN: &[(&str, &[&str])] = &[
+    ("components.toml", &["--shading", "phong"]),
     ("lights.toml", &["--shading", "phong"]),
     ("shadows.toml", &["--shading", "phong", "--shadows", "map"]),
     ("glass.toml", &["--shading", "phong", "--shadows", "ray"]),

@@ -3,6 +3,7 @@
 pub mod accumulators;
 mod additions;
 mod dithered;
+mod edges;
 mod layers;
 mod table_read;
 mod turned;
@@ -17,6 +18,7 @@ mod page;
 use additions::{Walk, walk};
 use anyhow::Result;
 use dithered::{Dithered, dithered};
+use edges::{OnLine, on_line};
 use edgewalk_golden::{Order, ShadowMaps, fragments};
 use edgewalk_host::draw::{Pixel, draw_frame};
 use edgewalk_host::extra;
@@ -72,6 +74,9 @@ pub struct Explanation {
     /// Why there are none of a scene, though the machine could look up maps.
     #[serde(skip_serializing_if = "Option::is_none")]
     no_shadows: Option<String>,
+    /// Of a frame with polygons, those whose edges cross the pixel's line.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    polygons: Vec<OnLine>,
     /// With DITHER, where the machine's own colours are known: as `machine`, of a frame whose colours nothing changes on their way.
     #[serde(skip_serializing_if = "Option::is_none")]
     dithered: Option<Dithered>,
@@ -110,6 +115,8 @@ pub struct Input<'a> {
     pub scene: Option<(&'a Scene, &'a Surface)>,
     /// The order in which its triangles are drawn, where that is another.
     pub order: Option<&'a Order>,
+    /// Of a triangle file the frame with its polygons as they are; the machine draws them as triangles.
+    pub outlined: Option<&'a Frame>,
 }
 
 /// Explains pixel (x, y), which lies on the machine's screen.
@@ -117,7 +124,7 @@ pub struct Input<'a> {
 /// # Errors
 /// What of the frame the machine cannot take.
 pub fn explain(input: &Input, (x, y): (u32, u32)) -> Result<Explanation> {
-    let Input { machine, frame, scene, order } = *input;
+    let Input { machine, frame, scene, order, outlined } = *input;
     let picture = golden_drawing(frame, machine).lines(0..frame.height);
     let parts = match frame.shading {
         Some(_) => apart(frame, machine)?.unwrap_or_else(|| vec![frame.clone()]),
@@ -180,6 +187,7 @@ pub fn explain(input: &Input, (x, y): (u32, u32)) -> Result<Explanation> {
         },
         shadows,
         no_shadows,
+        polygons: on_line(outlined.unwrap_or(frame), machine, (x, y)),
         dithered: walked.as_ref().and_then(|walk| dithered(machine, frame, &walk.output, (x, y))),
         machine: walked,
     })

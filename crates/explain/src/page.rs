@@ -53,6 +53,7 @@ pub(super) fn text(of: &Explanation, color_bits: u32) -> String {
     if let Some(reason) = &of.no_shadows {
         _ = writeln!(page, "\nno map on the machine: {reason}");
     }
+    of.polygons.iter().for_each(|polygon| page += &super::edges::text(polygon, (of.x, of.y)));
     page += &of.dithered.as_ref().map(super::dithered::text).unwrap_or_default();
     if let Some(walk) = &of.machine {
         machine(&mut page, walk);

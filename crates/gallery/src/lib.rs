@@ -19,6 +19,9 @@ mod lamp;
 mod shadows;
 mod glass;
 mod mach_bands;
+mod components;
+mod textbook_fill;
+mod vertex_rule;
 mod quantization;
 mod hidden_surfaces;
 mod missed_highlight;
@@ -34,9 +37,12 @@ pub use exhibit::{Exhibit, Image, View};
 pub type Maker = fn() -> anyhow::Result<Exhibit>;
 
 /// All of them, in the order in which they are shown, by the names of their files.
-pub const EXHIBITS: [(&str, Maker); 19] = [
+pub const EXHIBITS: [(&str, Maker); 22] = [
     ("worked-example", || Ok(worked_example::worked_example())),
     ("polygons", polygons::polygons),
+    ("vertex-rule", || Ok(vertex_rule::vertex_rule())),
+    ("textbook-fill", || Ok(textbook_fill::textbook_fill())),
+    ("components", components::components),
     ("lights", lights::lights),
     ("systems", systems::systems),
     ("fast-phong", fast_phong::fast_phong),

@@ -19,6 +19,7 @@ pub(crate) fn mach_bands() -> anyhow::Result<Exhibit> {
     let intensity: Vec<_> = profiles.iter().zip(names).map(|(of, name)| of.series(name)).collect();
     let slope: Vec<_> =
         profiles[1..].iter().zip(&names[1..]).map(|(of, name)| of.slope_series(name)).collect();
+    let perceived: Vec<_> = profiles.iter().zip(names).map(|(of, name)| of.perceived(name)).collect();
     let [gouraud_jumps, phong_jumps] = [&profiles[1], &profiles[2]].map(Profile::slope_jumps);
     let mean = |jumps: &[f64]| jumps.iter().sum::<f64>() / jumps.len() as f64;
     let largest = |jumps: &[f64]| jumps.iter().copied().fold(0.0, f64::max);
@@ -31,6 +32,9 @@ pub(crate) fn mach_bands() -> anyhow::Result<Exhibit> {
                 the jump is left. Not none, as the normals' own slope jumps at edges.",
         figures: vec![
             figure("constant: largest step between neighbours, LSB", profiles[0].largest_step(), 2),
+            figure("constant: most perceived beside the intensity, LSB", profiles[0].largest_response(), 2),
+            figure("Gouraud: most perceived beside the intensity, LSB", profiles[1].largest_response(), 2),
+            figure("Phong: most perceived beside the intensity, LSB", profiles[2].largest_response(), 2),
             figure("edges met on the line", gouraud_jumps.len() as f64, 0),
             figure("Gouraud: mean jump of the slope at an edge, LSB/px", mean(&gouraud_jumps), 3),
             figure("Gouraud: largest jump of the slope at an edge, LSB/px", largest(&gouraud_jumps), 3),
@@ -50,6 +54,11 @@ pub(crate) fn mach_bands() -> anyhow::Result<Exhibit> {
                 "intensity",
                 "Intensity along the middle line",
                 plot("pixel", "LSB of 8 bits", &intensity),
+            ),
+            View::drawing(
+                "perceived",
+                "As an eye perceives it, by a centre-surround filter of 2 and 8 pixels",
+                plot("pixel", "LSB of 8 bits", &perceived),
             ),
             View::drawing("slope", "Its slope", plot("pixel", "LSB/px", &slope)),
         ],

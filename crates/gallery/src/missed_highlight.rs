@@ -8,6 +8,10 @@ use std::path::Path;
 
 const SCENE: &str = include_str!("../../../docs/scenes/missed-highlight.toml");
 
+/// The light, and where it stands for its highlight to lie on a vertex of the square.
+const LIGHT: &str = "position = [0, 0.7, -0.6]";
+const OVER_VERTEX: &str = "position = [1.318, 0.7, 0.618]";
+
 /// Squares along a side of the finer scene.
 const FINE: u32 = 16;
 
@@ -24,6 +28,12 @@ pub(crate) fn missed_highlight() -> anyhow::Result<Exhibit> {
             [f64::from(at % WIDTH), f64::from(at / WIDTH)]
         });
         (x - u).hypot(y - v)
+    };
+    let over_vertex = Scene::parse(Path::new("missed-highlight.toml"), &SCENE.replace(LIGHT, OVER_VERTEX))?;
+    let smeared = draw(&over_vertex, Shading::Gouraud);
+    let wide = |rgb: &[[f64; 3]]| {
+        let most = rgb[brightest(rgb)][1];
+        rgb.iter().filter(|rgb| 2.0 * rgb[1] > most).count() as f64
     };
     let machine = Beside::of(&scene, PixelMethod::FastPhong)?;
     let mut exhibit = Exhibit {
@@ -48,8 +58,17 @@ pub(crate) fn missed_highlight() -> anyhow::Result<Exhibit> {
                 moved(&fine.picture.rgb, &fine.truth),
                 1,
             ),
+            figure("light over a vertex: brightest green, Gouraud, LSB", green(&smeared.picture.rgb), 1),
+            figure("light over a vertex: brightest green, truth, LSB", green(&smeared.truth), 1),
+            figure("light over a vertex: pixels above half of it, Gouraud", wide(&smeared.picture.rgb), 0),
+            figure("light over a vertex: pixels above half of it, truth", wide(&smeared.truth), 0),
         ],
         views: vec![
+            View::colors(
+                "vertex",
+                "Gouraud, the highlight on a vertex: smeared over the square",
+                smeared.picture.rgb,
+            ),
             View::colors("gouraud", "Gouraud", gouraud.picture.rgb),
             View::colors("phong", "Phong: a highlight, but too far down and to the right", phong.picture.rgb),
             View::colors("truth", "Truth", gouraud.truth),

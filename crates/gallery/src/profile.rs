@@ -4,6 +4,10 @@ use crate::exhibit::{HEIGHT, LSB, WIDTH};
 use crate::plot::Series;
 use edgewalk_golden::Picture;
 
+/// Deviations of the near and the far surroundings of the filter, pixels.
+const NEAR: f64 = 2.0;
+const FAR: f64 = 8.0;
+
 /// Intensity along the middle line, from pixel to pixel.
 pub(crate) struct Profile {
     /// Mean of the three colours, LSB of 8 bits.
@@ -29,6 +33,30 @@ impl Profile {
     pub fn slope_series(&self, label: &'static str) -> Series {
         let shown = (1..self.id.len()).filter(|x| self.id[*x] >= 0 && self.id[*x - 1] >= 0);
         Series { label, points: shown.map(|x| (x as f64, self.slope(x))).collect() }
+    }
+
+    /// The line as an eye perceives it, by a centre-surround filter: to each intensity comes what its near surroundings are above its far
+    /// ones (Gaussians of 2 and 8 pixels, where something is seen). Lateral inhibition makes bright and dark lines of a step or a bend.
+    pub fn perceived(&self, label: &'static str) -> Series {
+        let mean = |x: usize, sigma: f64| {
+            let (mut sum, mut weights) = (0.0, 0.0);
+            for (place, value) in self.values.iter().enumerate().filter(|(place, _)| self.id[*place] >= 0) {
+                let weight = (-0.5 * ((place as f64 - x as f64) / sigma).powi(2)).exp();
+                (sum, weights) = (sum + weight * value, weights + weight);
+            }
+            sum / weights
+        };
+        let shown = (0..self.id.len()).filter(|x| self.id[*x] >= 0);
+        let response = |x: usize| self.values[x] + mean(x, NEAR) - mean(x, FAR);
+        Series { label, points: shown.map(|x| (x as f64, response(x))).collect() }
+    }
+
+    /// Most that an eye perceives beyond the intensity where triangles meet, far from the ends of what is seen, LSB.
+    pub fn largest_response(&self) -> f64 {
+        let (actual, perceived) = (self.series("").points, self.perceived("").points);
+        let margin = (3.0 * FAR) as usize;
+        let inner = actual.iter().zip(&perceived).skip(margin).take(actual.len().saturating_sub(2 * margin));
+        inner.map(|(a, b)| (a.1 - b.1).abs()).fold(0.0, f64::max)
     }
 
     /// Largest step of the intensity from one triangle to its neighbour, LSB.
@@ -103,6 +131,20 @@ mod tests {
         assert_eq!(profile.series("grey").points, shown(100, &greys));
         let slopes = [1.0, 1.0, 1.0, 3.0, -1.0, -2.0, -5.0, 1.0];
         assert_eq!(profile.slope_series("slope").points, shown(101, &slopes));
+    }
+
+    /// Of a line without bends nothing is added; beside a step the dark side is perceived darker, the bright one brighter.
+    #[test]
+    fn an_eye_perceives_bands_beside_a_step() {
+        let line =
+            |value: fn(usize) -> f64| Profile { values: (0..200).map(value).collect(), id: vec![0; 200] };
+        let ramp = line(|x| x as f64);
+        let off = ramp.series("").points[60..140].iter().zip(&ramp.perceived("").points[60..140]);
+        assert!(off.map(|(a, b)| (a.1 - b.1).abs()).fold(0.0, f64::max) < 1e-6);
+        let step = line(|x| if x < 100 { 50.0 } else { 150.0 });
+        let perceived = step.perceived("").points;
+        assert!(perceived[96].1 < 40.0 && perceived[103].1 > 160.0 && (perceived[50].1 - 50.0).abs() < 0.1);
+        assert!(step.largest_response() > 10.0);
     }
 
     #[test]

@@ -63,7 +63,8 @@ fn as_untimed(keys: &mut Machine) {
 pub fn geometry(machine: &Plan, port: &PortFrame) -> Result<Passage> {
     let bare = Machine::default();
     let bare = machine.with(|keys| {
-        (keys.shade, keys.shadow, keys.blend) = (bare.shade, bare.shadow, bare.blend);
+        (keys.shade, keys.shadow, keys.dither, keys.blend) =
+            (bare.shade, bare.shadow, bare.dither, bare.blend);
         (keys.extra, keys.adders) = (bare.extra, keys.adders.min(bare.adders));
         as_untimed(keys);
     });

@@ -7,6 +7,7 @@ use crate::machine_args::MachineArgs;
 use crate::verdict::Verdict;
 use anyhow::{Result, anyhow};
 use edgewalk_explain::{Input, explain};
+use edgewalk_host::input::in_triangles;
 
 /// Says which triangles lie over a pixel, how its light is made up, and every addition of the machine on the way to it,
 /// with its error and its bound.
@@ -35,9 +36,11 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
     let machine = args.source.machine(machine)?;
     // A file is opened once: it may be a pipe.
     let scene = if args.source.is_triangle_file() { None } else { Some(args.source.surface(&machine)?) };
-    let (frame, order) = match &scene {
-        Some((scene, surface)) => args.source.frame_of(scene, surface, &machine)?,
-        None => (args.source.frame(&machine)?, None),
+    let outlined = if scene.is_none() { Some(args.source.outlined(&machine)?) } else { None };
+    let (frame, order) = match (&scene, &outlined) {
+        (Some((scene, surface)), _) => args.source.frame_of(scene, surface, &machine)?,
+        (None, Some(outlined)) => (in_triangles(outlined.clone(), &machine)?, None),
+        (None, None) => (args.source.frame(&machine)?, None),
     };
     let frame = frame.first(args.triangles.unwrap_or(usize::MAX));
     let (x, y) = (args.x, args.y);
@@ -50,6 +53,7 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
         frame: &frame,
         scene: scene.as_ref().map(|(scene, surface)| (scene, surface)),
         order: order.as_ref(),
+        outlined: outlined.as_ref(),
     };
     let explanation = explain(&input, (x, y))?;
     talk.say(|| document("explain", &explanation), || explanation.text(machine.color.bits))?;

@@ -18,7 +18,7 @@ impl Dither {
         view.triangle(frag.map(|frag| frag.source.id));
         let (kind, title) = fragments::seen(plan);
         view.kind(kind, title, || fragments::seen_fields(plan));
-        let offers = view.guard("offered", "a fragment is offered", frag.is_some());
+        let offers = view.flag("offered", "a fragment is offered", frag.is_some());
         view.wire(|| "frag_valid".to_owned());
         view.live(Some(offers));
         let pattern = frag.map_or(0, |frag| self.cut.pattern(frag.addr));
