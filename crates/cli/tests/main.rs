@@ -38,6 +38,7 @@ mod replay;
 mod replay_page;
 mod reports;
 mod scenes;
+mod sentences;
 mod setup_report;
 mod shading;
 mod shadows;
