@@ -34,13 +34,14 @@ const MOST_PRONOUNS: usize = 234;
 
 /// A machine of each kind of unit, beside the presets.
 const MACHINES: &[&[&str]] = &[
-    &["shade.kind=phong", "shade.light=positional", "shade.colour=multiply", "texture.kind=nearest", "texture.bump=yes"],
-    &["shade.kind=phong", "shade.colour=multiply", "term.walk=memory", "interpolator.adders=2", "interpolator.segments=2"],
-    &["shade.kind=fast-phong", "shade.lights=2", "shadow.light=parallel", "shadow.gate=scale", "blend.kind=constant"],
-    &["shadow.light=perspective", "shadow.transmits=yes", "shadow.own_pass=yes", "blend.kind=interpolated"],
+    &["shade.kind=phong", "shade.light=positional", "shade.colour=multiply", "texture.kind=nearest"],
+    &["shade.kind=phong", "shade.colour=multiply", "texture.kind=nearest", "texture.bump=yes"],
+    &["shade.kind=fast-phong", "shade.lights=2", "term.walk=memory", "interpolator.adders=2"],
+    &["shadow.light=parallel", "shadow.gate=scale", "interpolator.segments=2", "setup.lanes=2"],
+    &["shadow.light=perspective", "shadow.transmits=yes", "shadow.own_pass=yes", "blend.kind=constant"],
     &["shadow.light=perspective", "shadow.project=serial", "blend.kind=constant", "blend.multipliers=0"],
-    &["blend.kind=constant", "blend.multipliers=1", "blend.stages=2", "memory.tag_bits=8", "channels.extra=2"],
-    &["memory.hazard=interlock", "setup.lanes=2", "edge.kind=slope", "fifo.span=4"],
+    &["blend.kind=interpolated", "blend.multipliers=1", "blend.stages=2", "memory.tag_bits=8"],
+    &["memory.hazard=interlock", "channels.extra=2", "edge.kind=slope", "fifo.span=4"],
 ];
 
 fn edgewalk(arguments: &[&str]) -> String {
