@@ -27,6 +27,7 @@ use edgewalk_golden::Fill;
 use edgewalk_host::raster::{Raster, from_golden, golden_fill};
 use edgewalk_machine::Plan;
 use edgewalk_scene::{Blending, Frame};
+use std::cmp::Ordering;
 use std::collections::BTreeMap;
 
 /// Judges `outside` beside golden's picture of `frame`, which has triangles only, by this rule of coverage.
@@ -181,10 +182,13 @@ impl Judge<'_> {
         let errors = self.errors(pixel);
         let [z, _] = errors;
         let other = || over.iter().find(|over| over.id != reference.id[pixel] && shows(over.id, over.z, over.rgb));
+        // Another number of triangles over the pixel explains a wrong value before anything else does.
+        let more = self.outside.coverage.as_ref().map(|own| own[pixel].cmp(&reference.coverage[pixel]));
         let cause = match (drawn, winner) {
             (_, true) => self.counts(pixel),
-            (true, false) if background => Cause::Missing,
+            (true, false) if background || more == Some(Ordering::Less) => Cause::Missing,
             (false, false) if !background => Cause::Extra,
+            (true, false) if more == Some(Ordering::Greater) => Cause::Extra,
             (true, false) => match other() {
                 Some(other) if (other.z - reference.z[pixel]).abs() <= self.tolerance.tie() => Cause::Tie,
                 Some(_) => Cause::WrongWinner,
@@ -234,9 +238,10 @@ impl Judge<'_> {
             Cause::Missing => of_triangle(of(found.triangle)?),
             Cause::Extra => match found.shown.and_then(of) {
                 Some(place) => of_triangle(place),
-                // Whichever triangle comes nearest to the pixel.
+                // Of the triangles that do not cover the pixel the one that comes nearest to it.
                 None => (0..triangles.len())
                     .filter_map(of_triangle)
+                    .filter(|edge| edge.distance <= 0.0)
                     .max_by(|a, b| a.distance.total_cmp(&b.distance)),
             },
             _ => None,

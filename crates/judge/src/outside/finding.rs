@@ -9,9 +9,9 @@ use serde::Serialize;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Cause {
-    /// The reference draws here, the picture shows the background.
+    /// A triangle does not cover the pixel in the picture: the background shows, or what lies behind.
     Missing,
-    /// The reference draws nothing here, the picture does.
+    /// A triangle covers the pixel that should not.
     Extra,
     /// The picture shows another triangle over the pixel, whose depth is so near that the tolerance lets either win.
     Tie,
