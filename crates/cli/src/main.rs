@@ -35,8 +35,8 @@ mod verdict;
 use anyhow::{Result, anyhow};
 use clap::{Parser, Subcommand};
 use commands::{
-    bench, compare, config, demo, emit, explain, gallery, judge, raster, render, replay, size, sweep, synth, trace,
-    vectors, verify,
+    bench, compare, config, demo, emit, explain, gallery, judge, raster, render, replay, size, sweep, synth,
+    trace, vectors, verify,
 };
 use machine_args::MachineArgs;
 use std::io::Write as _;

@@ -69,7 +69,12 @@ fn text(list: &[[Vertex; 3]]) -> String {
 
 fn draw(list: &[[Vertex; 3]], fault: Fault) -> Drawn {
     let pixels = SIZE.0 * SIZE.1;
-    let mut drawn = Drawn { coverage: vec![0; pixels], id: vec![-1; pixels], z: vec![1.0; pixels], rgb: vec![[0.0; 3]; pixels] };
+    let mut drawn = Drawn {
+        coverage: vec![0; pixels],
+        id: vec![-1; pixels],
+        z: vec![1.0; pixels],
+        rgb: vec![[0.0; 3]; pixels],
+    };
     let tiles = (SIZE.0 / TILE, SIZE.1 / TILE);
     for tile in (0..tiles.0 * tiles.1).rev() {
         let (left, top) = (tile % tiles.0 * TILE, tile / tiles.0 * TILE);
@@ -109,7 +114,9 @@ fn draw(list: &[[Vertex; 3]], fault: Fault) -> Drawn {
             let free = drawn.id.iter().position(|id| *id < 0).unwrap();
             (drawn.id[free], drawn.z[free], drawn.coverage[free]) = (0, 0.5, 1);
         }
-        Fault::Colour => drawn.rgb[covered][1] += if drawn.rgb[covered][1] > 0.5 { -3.0 } else { 3.0 } / 255.0,
+        Fault::Colour => {
+            drawn.rgb[covered][1] += if drawn.rgb[covered][1] > 0.5 { -3.0 } else { 3.0 } / 255.0
+        }
         _ => {}
     }
     drawn
@@ -120,7 +127,8 @@ fn inside(triangle: &[Vertex; 3], (x, y): (usize, usize), fault: Fault) -> Optio
     let snap = |v: f64| (v * 256.0).round_ties_even() as i64;
     let p = triangle.map(|v| (snap(v[0]), snap(v[1])));
     let c = (x as i64 * 256 + 128, y as i64 * 256 + 128);
-    let cross = |a: (i64, i64), b: (i64, i64), c: (i64, i64)| (b.0 - a.0) * (c.1 - a.1) - (b.1 - a.1) * (c.0 - a.0);
+    let cross =
+        |a: (i64, i64), b: (i64, i64), c: (i64, i64)| (b.0 - a.0) * (c.1 - a.1) - (b.1 - a.1) * (c.0 - a.0);
     let area = cross(p[0], p[1], p[2]);
     if area == 0 {
         return None;
@@ -158,7 +166,12 @@ fn write(folder: &Path, drawn: &Drawn) {
     let shape = format!("({}, {})", SIZE.1, SIZE.0);
     let bytes = |values: &[f64]| values.iter().flat_map(|v| v.to_le_bytes()).collect::<Vec<u8>>();
     npy(&folder.join("z.npy"), "<f8", &shape, &bytes(&drawn.z));
-    npy(&folder.join("rgb.npy"), "<f8", &format!("({}, {}, 3)", SIZE.1, SIZE.0), &bytes(drawn.rgb.as_flattened()));
+    npy(
+        &folder.join("rgb.npy"),
+        "<f8",
+        &format!("({}, {}, 3)", SIZE.1, SIZE.0),
+        &bytes(drawn.rgb.as_flattened()),
+    );
     let counts: Vec<u8> = drawn.coverage.iter().flat_map(|v| v.to_le_bytes()).collect();
     npy(&folder.join("coverage.npy"), "<u4", &shape, &counts);
 }
@@ -218,7 +231,8 @@ fn each_fault_fails_with_its_cause() {
             let at = (found["y"].as_u64().unwrap() * 64 + found["x"].as_u64().unwrap()) as usize;
             let right = draw(&list, Fault::None);
             assert!(
-                (drawn.coverage[at], drawn.z[at], drawn.rgb[at]) != (right.coverage[at], right.z[at], right.rgb[at]),
+                (drawn.coverage[at], drawn.z[at], drawn.rgb[at])
+                    != (right.coverage[at], right.z[at], right.rgb[at]),
                 "the pixel named is one that was drawn otherwise: {found}"
             );
             if matches!(fault, Fault::PixelDropped | Fault::PixelAdded | Fault::Colour) {
@@ -228,7 +242,8 @@ fn each_fault_fails_with_its_cause() {
                 assert_eq!(found["edge"]["distance"], 0.0, "the centre lies on the edge: {found}");
             }
             let folder = folder.path().join("judged");
-            let kept: Value = serde_json::from_slice(&std::fs::read(folder.join("judge.json")).unwrap()).unwrap();
+            let kept: Value =
+                serde_json::from_slice(&std::fs::read(folder.join("judge.json")).unwrap()).unwrap();
             assert_eq!(kept, report);
             let colored = crate::support::colors(&folder.join("differences.png"));
             let differ = colored.iter().filter(|color| **color != [0; 3]).count() as u64;
@@ -274,8 +289,11 @@ fn every_engine_of_raster_passes() {
     let folder = tempfile::tempdir().unwrap();
     std::fs::write(folder.path().join("in.tri"), text(&triangles(3))).unwrap();
     for engine in ["golden", "fast", "model"] {
-        let (code, error) =
-            ended(&edgewalk(folder.path(), &["raster", "in.tri", "--engine", engine, "--out", engine]).output().unwrap());
+        let (code, error) = ended(
+            &edgewalk(folder.path(), &["raster", "in.tri", "--engine", engine, "--out", engine])
+                .output()
+                .unwrap(),
+        );
         assert_eq!(code, Some(0), "{error}");
         assert_eq!(judged(folder.path(), &[engine]).0, Some(0), "{engine}");
         let machine = judged(folder.path(), &[engine, "--against", "machine"]);
@@ -324,7 +342,11 @@ fn arrays_that_cannot_be_are_refused() {
     npy(&at("many/lit.npy"), "<i4", "(48, 64)", &[[0, 1, 0, 0]; 64 * 48].concat());
     std::fs::write(at("short/z.npy"), b"\x93NUM").unwrap();
     std::fs::write(at("header/z.npy"), b"\x93NUMPY\x02\x00\xff\xff\xff\x7f{}").unwrap();
-    std::fs::write(at("nonsense/z.npy"), [b"\x93NUMPY\x01\x00\x10\x00".to_vec(), b"{'descr': <<<   \n".to_vec()].concat()).unwrap();
+    std::fs::write(
+        at("nonsense/z.npy"),
+        [b"\x93NUMPY\x01\x00\x10\x00".to_vec(), b"{'descr': <<<   \n".to_vec()].concat(),
+    )
+    .unwrap();
     std::fs::write(at("depth.npy"), b"").unwrap();
     std::fs::write(at("not.png"), b"nothing").unwrap();
     image::RgbImage::new(64, 47).save(at("small.png")).unwrap();
@@ -349,7 +371,10 @@ fn arrays_that_cannot_be_are_refused() {
         (&["mine.png", "--color-lsb=-1"], "permitted: 0 or more"),
         (&["mine.png", "--depth-bits", "49"], "49 is not in 1..=48"),
         (&["mine.png", "--rule", "left"], "possible values: top-left"),
-        (&["mine.png", "--rule", "textbook", "--against", "machine"], "permitted with --against machine: top-left"),
+        (
+            &["mine.png", "--rule", "textbook", "--against", "machine"],
+            "permitted with --against machine: top-left",
+        ),
     ];
     for (arguments, message) in cases {
         let output = edgewalk(folder.path(), &[&["judge", "in.tri"], arguments].concat()).output().unwrap();

@@ -181,7 +181,8 @@ impl Judge<'_> {
         let drawn = reference.id[pixel] >= 0;
         let errors = self.errors(pixel);
         let [z, _] = errors;
-        let other = || over.iter().find(|over| over.id != reference.id[pixel] && shows(over.id, over.z, over.rgb));
+        let other =
+            || over.iter().find(|over| over.id != reference.id[pixel] && shows(over.id, over.z, over.rgb));
         // Another number of triangles over the pixel explains a wrong value before anything else does.
         let more = self.outside.coverage.as_ref().map(|own| own[pixel].cmp(&reference.coverage[pixel]));
         let cause = match (drawn, winner) {
@@ -233,7 +234,8 @@ impl Judge<'_> {
         let Fill::Exact { subpixel_bits } = fill else { return None };
         let triangles = &self.frame.triangles;
         let of = |id: i32| usize::try_from(id).ok().filter(|place| *place < triangles.len());
-        let of_triangle = |place: usize| Edge::nearest(place, &triangles[place], subpixel_bits, (found.x, found.y));
+        let of_triangle =
+            |place: usize| Edge::nearest(place, &triangles[place], subpixel_bits, (found.x, found.y));
         match found.cause {
             Cause::Missing => of_triangle(of(found.triangle)?),
             Cause::Extra => match found.shown.and_then(of) {

@@ -147,7 +147,8 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
     let judgement = match args.against {
         Against::Golden => outside::beside_golden(&machine, &frame, &picture, &tolerance, rule)?,
         Against::Machine => {
-            let drawn = draw::draw_frame(&machine, &to_port(&frame, &machine)?, Waits::Never)?.raster(&machine);
+            let drawn =
+                draw::draw_frame(&machine, &to_port(&frame, &machine)?, Waits::Never)?.raster(&machine);
             outside::beside_machine(&machine, &frame, &drawn, &picture, &tolerance)?
         }
     };
@@ -202,14 +203,22 @@ fn color(cause: u8) -> [u8; 3] {
 
 /// A number of LSB on the command line.
 fn lsb(text: &str) -> Result<f64, String> {
-    let number: f64 = text.parse().map_err(|_| format!("`{text}` is no number; permitted: 0 or more, LSB"))?;
-    if number.is_finite() && number >= 0.0 { Ok(number) } else { Err(format!("{text}; permitted: 0 or more, LSB")) }
+    let number: f64 =
+        text.parse().map_err(|_| format!("`{text}` is no number; permitted: 0 or more, LSB"))?;
+    if number.is_finite() && number >= 0.0 {
+        Ok(number)
+    } else {
+        Err(format!("{text}; permitted: 0 or more, LSB"))
+    }
 }
 
 impl Report {
     fn text(&self) -> String {
         let Report { input, against, rule, machine, pass, .. } = self;
         let verdict = if *pass { "pass" } else { "fail" };
-        format!("{input} beside {against}, rule {rule}, machine {machine}: {verdict}\n{}", self.judgement.lines())
+        format!(
+            "{input} beside {against}, rule {rule}, machine {machine}: {verdict}\n{}",
+            self.judgement.lines()
+        )
     }
 }

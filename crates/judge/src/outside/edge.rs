@@ -18,13 +18,19 @@ pub struct Edge {
 impl Edge {
     /// Of the triangle in this place, its vertices snapped to sub-pixels; none where the triangle has no area.
     #[must_use]
-    pub fn nearest(place: usize, triangle: &Triangle, subpixel_bits: u32, (x, y): (u32, u32)) -> Option<Edge> {
+    pub fn nearest(
+        place: usize,
+        triangle: &Triangle,
+        subpixel_bits: u32,
+        (x, y): (u32, u32),
+    ) -> Option<Edge> {
         // Half sub-pixels, so that centres are whole numbers: below 2^30, products below 2^62.
         let of = |coordinate: f64| 2 * snap(coordinate, subpixel_bits);
         let points = triangle.0.map(|vertex| [of(vertex.x), of(vertex.y)]);
         let centre = [x, y].map(|at| (2 * i64::from(at) + 1) << subpixel_bits);
         let cross = |a: [i64; 2], b: [i64; 2], c: [i64; 2]| {
-            i128::from(b[0] - a[0]) * i128::from(c[1] - a[1]) - i128::from(b[1] - a[1]) * i128::from(c[0] - a[0])
+            i128::from(b[0] - a[0]) * i128::from(c[1] - a[1])
+                - i128::from(b[1] - a[1]) * i128::from(c[0] - a[0])
         };
         let area = cross(points[0], points[1], points[2]);
         if area == 0 {

@@ -98,14 +98,19 @@ impl Array {
             array.shape(),
             if colors { ", colours" } else { "" }
         );
-        ensure!(array.order() == Order::C, "its order is Fortran's; permitted: C; numpy.ascontiguousarray makes it so");
+        ensure!(
+            array.order() == Order::C,
+            "its order is Fortran's; permitted: C; numpy.ascontiguousarray makes it so"
+        );
         Ok(Array(array))
     }
 
     /// Its values, if they are of this type; else the array back.
     fn values<T: Deserialize>(self) -> Result<Result<Vec<T>>, Array> {
         match self.0.try_data::<T>() {
-            Ok(values) => Ok(values.collect::<Result<_, _>>().map_err(|e| anyhow!("its values end early: {e}"))),
+            Ok(values) => {
+                Ok(values.collect::<Result<_, _>>().map_err(|e| anyhow!("its values end early: {e}")))
+            }
             Err(array) => Err(Array(array)),
         }
     }
@@ -149,7 +154,10 @@ fn whole<T, E>(array: Array, of: fn(i64) -> Result<T, E>) -> Result<Vec<T>> {
 fn unorm(array: Array, bits: u32) -> Result<Vec<f64>> {
     let one = (1u64 << bits) - 1;
     let lsb = |value: u64| {
-        ensure!(value <= one, "{value} is more than {one}, the most that {bits} bits hold; permitted: LSB, or floats in 0 to 1");
+        ensure!(
+            value <= one,
+            "{value} is more than {one}, the most that {bits} bits hold; permitted: LSB, or floats in 0 to 1"
+        );
         Ok(value as f64 / one as f64)
     };
     by_type!(array,
