@@ -104,7 +104,8 @@ fn sentences_of_verilog_are_short() {
     let set = |key: &&str| ["--set".to_owned(), (*key).to_owned()];
     machines.extend(MACHINES.iter().map(|keys| keys.iter().flat_map(set).collect()));
     let (mut checked, mut clean) = (0, Vec::new());
-    let mut unclean: BTreeMap<&str, Vec<String>> = UNCLEAN.iter().map(|(file, _)| (*file, Vec::new())).collect();
+    let mut unclean: BTreeMap<&str, Vec<String>> =
+        UNCLEAN.iter().map(|(file, _)| (*file, Vec::new())).collect();
     for (at, machine) in machines.iter().enumerate() {
         let out = folder.path().join(at.to_string());
         let mut arguments = vec!["emit", "--quiet", "--out", out.to_str().expect("a name")];
@@ -174,7 +175,9 @@ fn sentences_of_help_are_short() {
             paragraph.push(' ');
             indent = here;
         }
-        for paragraph in paragraphs.iter().filter(|text| !text.trim().is_empty() && !text.starts_with("Usage")) {
+        for paragraph in
+            paragraphs.iter().filter(|text| !text.trim().is_empty() && !text.starts_with("Usage"))
+        {
             // A list in brackets is no sentence.
             let text = paragraph.split(" [").next().expect("a part");
             found.extend(faults(text).into_iter().map(|fault| format!("{command:?}: {fault}")));
@@ -199,8 +202,10 @@ fn sources(folder: &Path, found: &mut Vec<PathBuf>) {
 
 #[test]
 fn comments_begin_with_a_subject() {
-    const PRONOUNS: &[&str] =
-        &["It", "Its", "They", "Their", "He", "She", "Who", "Whoever", "Whose", "That", "This", "These", "Those"];
+    const PRONOUNS: &[&str] = &[
+        "It", "Its", "They", "Their", "He", "She", "Who", "Whoever", "Whose", "That", "This", "These",
+        "Those",
+    ];
     let crates = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
     let mut files = Vec::new();
     for entry in std::fs::read_dir(crates).expect("the crates") {

@@ -52,7 +52,11 @@ pub fn blend(plan: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
     let stages = Stages::new(&m, plan, carried);
     let mut entry = pass.parts();
     entry.retain(|part| part.name != "fence");
-    entry.push(Part { name: "need".to_owned(), width: 1, doc: "the fragment needs the old colour".to_owned() });
+    entry.push(Part {
+        name: "need".to_owned(),
+        width: 1,
+        doc: "the fragment needs the old colour".to_owned(),
+    });
     let shape = Shape {
         memory: "color",
         hazard: plan.blend.hazard,

@@ -52,8 +52,8 @@ pub fn depth(plan: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
 
     m.comment("State: the queue of fragments that wait for their old depths, and the write register w.");
     let flight = Rmw::new(&m, &ports, shape(plan, &ports, depth_write));
-    let pend_fence =
-        forks.then(|| m.reg("pend_fence", 1).doc("a fence to hand on: its fragment never reaches BLEND").reset(0));
+    let pend_fence = forks
+        .then(|| m.reg("pend_fence", 1).doc("a fence to hand on: its fragment never reaches BLEND").reset(0));
 
     m.comment("A fragment enters when the queue has room and no fragment in flight may change its depth.");
     let enter = flight.enter(frag_valid, &frag, None, memory.read_ready);

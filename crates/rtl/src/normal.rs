@@ -37,9 +37,7 @@ pub fn normal(plan: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
     let memory = ports.memory("roots");
     let normed_ready = ports.gives_ready();
 
-    m.comment(
-        "Stages, and the fields that pass through them until they are multiplied.",
-    );
+    m.comment("Stages, and the fields that pass through them until they are multiplied.");
     let cosines = parts(&tokens::cosines(plan));
     let through = |part: &Part| part.name != "nn";
     let with_products: Vec<Part> = frag.parts().into_iter().filter(through).collect();
@@ -66,7 +64,8 @@ pub fn normal(plan: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
     m.comment("N1: N.N, limited to [1/4, 1).");
     let nn = frag["nn"];
     let (sign, whole) = (nn.msb(), nn.slice(nn.width() - 2, 16).any());
-    let short = (sign | (!whole & !nn.slice(15, 14).any())).named_doc("short", "length below 1/2: N.N counts as 1/4");
+    let short =
+        (sign | (!whole & !nn.slice(15, 14).any())).named_doc("short", "length below 1/2: N.N counts as 1/4");
     let at_most = whole.mux(m.lit(16, 0xffff), nn.trunc(16));
     let n1_s = moved(&m, advance, "n1_s", "N.N, 2^-16", short.mux(m.lit(16, 1 << 14), at_most));
 

@@ -51,7 +51,8 @@ fn kept<'m>(plan: &Plan, frag: &Token<'m>) -> Token<'m> {
     let m = frag["lw"].module();
     m.comment("Range checks. With signs 0 the dividends are as long as the divisor.");
     let [x, y, z, w] = LIGHT_SPACE.map(|name| frag[name]);
-    let before_light = (!w.msb() & w.any()).named_doc("before_light", "the weight is above 0: in front of the light");
+    let before_light =
+        (!w.msb() & w.any()).named_doc("before_light", "the weight is above 0: in front of the light");
     let below = |number: Signal<'m>| {
         let bits = plan.shadow.light_bits;
         before_light & !number.msb() & number.trunc(bits).lt(w.trunc(bits))

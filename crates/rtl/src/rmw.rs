@@ -28,7 +28,9 @@ pub(crate) fn hazard_doc(hazard: Hazard, word: &str) -> String {
             )
         }
         Hazard::Forward => {
-            format!("Hazard: a fragment takes its {word} from the youngest older fragment that writes its pixel.")
+            format!(
+                "Hazard: a fragment takes its {word} from the youngest older fragment that writes its pixel."
+            )
         }
     }
 }
@@ -139,7 +141,9 @@ impl<'m> Rmw<'m> {
         let bits = (places + 1).next_power_of_two().ilog2();
         let count = m.reg("count", bits).doc("fragments in flight").reset(0);
         let mut word = parts(&memory.data.fields);
-        word.iter_mut().for_each(|part| part.doc = format!("{} from the youngest older fragment of this pixel", memory.name));
+        word.iter_mut().for_each(|part| {
+            part.doc = format!("{} from the youngest older fragment of this pixel", memory.name)
+        });
         let w = Write::new(m, ways, write, memory.enable);
         let place = |i| Place {
             entry: Registers::new(m, &format!("place{i}"), entry.clone()),

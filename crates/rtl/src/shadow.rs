@@ -68,7 +68,8 @@ pub fn shadow(plan: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
         .instance("queue", &fifo("edgewalk_shadow_fifo", plan.shadow.queue, &entry_parts(plan, &frag), &[])?);
     let room = queue.output("in_ready");
     let mrd_valid = (frag_valid & room & !found.known).named("mrd_valid");
-    let read_done = (found.known | memory.read_ready).named_doc("read_done", "the texel's read is accepted, or not needed");
+    let read_done = (found.known | memory.read_ready)
+        .named_doc("read_done", "the texel's read is accepted, or not needed");
     let frag_ready = (room & read_done).named("frag_ready");
     let address = m.cat(&[ty, tx].map(|t| t.trunc(plan.shadow.side_bits())));
     let entry = Token::new(entry_parts(plan, &frag), |f| match f {
@@ -94,8 +95,9 @@ pub fn shadow(plan: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
         let bits = plan.color.bits;
         let all = m.lit(bits, u128::MAX >> (128 - bits));
         let dark = gate.unwrap_or_else(|| m.lit(bits, 0));
-        let reached =
-            head["known"].mux(all, left).named_doc("reached", "share of the light that reaches a lit fragment");
+        let reached = head["known"]
+            .mux(all, left)
+            .named_doc("reached", "share of the light that reaches a lit fragment");
         lit.mux(reached, dark).named_doc("left", "share of each colour that remains")
     });
     let gated = |c: &str| match (left, gate) {

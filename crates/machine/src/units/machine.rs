@@ -8,7 +8,10 @@ use crate::unit::{always, events};
 /// Outputs that mean something in every cycle.
 pub(crate) fn status() -> Vec<Status> {
     let cause = Field::count("activity", Activity::BITS, "cause of the cycle");
-    vec![Status { field: cause, during: None }, Status::new("idle", "no triangle, fragment or write is inside")]
+    vec![
+        Status { field: cause, during: None },
+        Status::new("idle", "no triangle, fragment or write is inside"),
+    ]
 }
 
 events! {

@@ -38,7 +38,10 @@ fn ports(plan: &Plan) -> Ports {
         memory: vec![MemoryPort {
             name: "terms",
             read: Link::new("trd", vec![tokens::term_address(plan)]),
-            data: Link::new("tdata", vec![Field::count("word", bits, "word of a record; the low bits count")]),
+            data: Link::new(
+                "tdata",
+                vec![Field::count("word", bits, "word of a record; the low bits count")],
+            ),
             write: "",
             word: "",
             enable: None,

@@ -190,7 +190,8 @@ fn word_format(term: &Term) -> Format {
 /// The material, if there is more than one.
 fn material(plan: &Plan) -> Option<Field> {
     let bits = plan.shade.material_bits;
-    (plan.shade.is_there() && bits > 0).then(|| Field::count("material", bits, "material; selects the tables of SHADE"))
+    (plan.shade.is_there() && bits > 0)
+        .then(|| Field::count("material", bits, "material; selects the tables of SHADE"))
 }
 
 /// Of the material's highlights, on the way to NORMAL or LAMP.
@@ -308,7 +309,9 @@ pub fn texture_word(plan: &Plan) -> Field {
 pub fn textured(plan: &Plan) -> Vec<Field> {
     let mut fields = fragment_with(plan, terms(plan, plan.bumped_terms()));
     if plan.shade.bumps() {
-        let slope = |name| Field::signed(name, plan.shade.slope_bits, "slope of the relief, as a fraction of the largest");
+        let slope = |name| {
+            Field::signed(name, plan.shade.slope_bits, "slope of the relief, as a fraction of the largest")
+        };
         let fence = fields.iter().position(|field| field.name == "fence").unwrap_or(fields.len());
         fields.splice(fence..fence, ["bu", "bv"].map(slope));
     }

@@ -87,7 +87,9 @@ impl<'m> Stages<'m> {
                 product: (stages == 2).then(|| product("stage0")),
             },
             _ => Way::BitByBit {
-                clock: m.reg("stage0_clock", clocks.next_power_of_two().ilog2()).doc("pairs of weight bits already used"),
+                clock: m
+                    .reg("stage0_clock", clocks.next_power_of_two().ilog2())
+                    .doc("pairs of weight bits already used"),
                 last: clocks - 1,
                 made: colors("stage0_made", "partial result"),
             },

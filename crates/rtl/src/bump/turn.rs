@@ -41,7 +41,11 @@ impl<'m> Turn<'_, 'm> {
         let of_cosine = |part: &Part| {
             slopes.map(|(way, slope)| {
                 let name = format!("{}{way}", part.name);
-                self.moved(&format!("k1_{name}"), "slope times growth of the cosine", frag[name.as_str()].smul(slope))
+                self.moved(
+                    &format!("k1_{name}"),
+                    "slope times growth of the cosine",
+                    frag[name.as_str()].smul(slope),
+                )
             })
         };
         let of_cosines = self.cosines.iter().map(of_cosine).collect();

@@ -27,7 +27,9 @@ impl<'m> Operands<'_, 'm> {
     /// The entry of the tables, `{v, slope}`, a step after it was asked for.
     pub fn entry(&self, roots: &Roots<'m>) -> Signal<'m> {
         let Operands { m, root, .. } = *self;
-        m.comment("Table entries: R for the root in progress, A for its exponent, C for the place beside the axis.");
+        m.comment(
+            "Table entries: R for the root in progress, A for its exponent, C for the place beside the axis.",
+        );
         let (in_a, in_c) = (self.at(1), self.at(7));
         let of_a = m.cat(&[m.lit(1, 1), root.k, root.m.slice(15, 10)]);
         let of_c = m.cat(&[m.lit(2, 1), self.beside.place.slice(15, 8)]);

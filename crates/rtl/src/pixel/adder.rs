@@ -6,7 +6,8 @@ use edgewalk_netlist::{Module, Reg, Signal};
 use crate::wires::Token;
 
 /// For the header of machines with more than one segment.
-pub(super) const SKEW_DOC: &str = "Segments: words are cut into segments; the carry moves one segment a clock.
+pub(super) const SKEW_DOC: &str =
+    "Segments: words are cut into segments; the carry moves one segment a clock.
   clock   0  1  2  3        Each segment loads, adds and leaves one clock behind the segment below it.
   seg 0   a  b  c  d        A segment needs only the carry of the clock before.
   seg 1      a  b  c        The output stages bring the bits of a fragment together.

@@ -59,7 +59,8 @@ impl<'m> Drawing<'m> {
         let x = m.reg("x", span["x"].width()).doc("current column, signed");
         let y = m.reg("y", span["y"].width()).doc("line");
         let leftward = m.reg("leftward", 1).doc("towards smaller columns");
-        let count = m.reg("count", span["count"].width()).doc("pixels left in the span, current one included");
+        let count =
+            m.reg("count", span["count"].width()).doc("pixels left in the span, current one included");
         let fence = m.reg("fence", 1).doc("fence of the next fragment");
         let phase = Phase::new(m, plan.clocks_per_pixel());
         let last_phase = phase.as_ref().map_or(m.lit(1, 1), |phase| phase.last);
@@ -71,11 +72,15 @@ impl<'m> Drawing<'m> {
         let load = (span_valid & span_ready).named("load");
         let light_pass = LightPass::of(plan, ports);
         let columns = light_pass.number(m, x.q().width(), plan.width.into(), plan.shadow.size.into());
-        let visible = x.q().lt(columns).named_doc("visible", "the column is on the screen; unsigned, so a negative column is too large");
+        let visible = x
+            .q()
+            .lt(columns)
+            .named_doc("visible", "the column is on the screen; unsigned, so a negative column is too large");
         let emit = (active.q() & last_phase & visible).named_doc("emit", "PIXEL makes a fragment");
         let moves = match &phase {
             None => advance,
-            Some(_) => (advance & (last_phase | !active.q())).named_doc("moves", "the pixel changes, or PIXEL is idle"),
+            Some(_) => (advance & (last_phase | !active.q()))
+                .named_doc("moves", "the pixel changes, or PIXEL is idle"),
         };
 
         active.when(advance, goes_on | span_valid);
@@ -128,7 +133,8 @@ impl<'m> Drawing<'m> {
             }
         };
         let slot = self.phase.as_ref();
-        let slot = slot.map(|phase| phase.next().named_doc("slot", "channel that each adder serves in this clock"));
+        let slot =
+            slot.map(|phase| phase.next().named_doc("slot", "channel that each adder serves in this clock"));
         let fresh = (links.span_valid & links.span["fresh"]).named("new_increments");
         Step { stays: self.goes_on, fresh, add, slot }
     }

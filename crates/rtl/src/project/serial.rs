@@ -40,8 +40,7 @@ pub(super) fn build<'m>(m: &'m Module, plan: &Plan, ports: &Interface<'m>) {
     let divisor = m.reg("w", bits).doc("divisor").when(take, w).q();
     let mut numbers = DIVIDED.into_iter().zip([x, y, z]).zip(rows(plan)).map(|((name, number), rows)| {
         let rest = m.reg(name, bits).doc("rest");
-        let quotient =
-            m.reg(&format!("{name}_quotient"), rows).doc("quotient bits so far, from the low end");
+        let quotient = m.reg(&format!("{name}_quotient"), rows).doc("quotient bits so far, from the low end");
         let step = Row::new(&format!("{name}_less"), rest.q(), divisor);
         // A number of fewer rows than the longest stands still when it is done.
         let works = if rows == last { dividing } else { dividing & row.q().lt(rows as i32) };

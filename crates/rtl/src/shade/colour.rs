@@ -35,10 +35,13 @@ impl<'m> Shone<'_, 'm> {
     /// Stages M and C where they hold the light; the colours of the triangle stand in stage B.
     pub fn multiplied(&self, triangle: &Registers<'m>) -> [Reg<'m>; 3] {
         let (m, b) = (self.m, self.plan.color.bits);
-        m.comment("Stage M: sum of diffuse light, at most 1.0, times the triangle's colour; sum of the highlights.");
+        m.comment(
+            "Stage M: sum of diffuse light, at most 1.0, times the triangle's colour; sum of the highlights.",
+        );
         let sum = total(self.lights.iter().map(|light| light.diffuse).collect());
         // 1.0 is one bit, so whatever is more has that bit or one above.
-        let whole = sum.slice(sum.width() - 1, b + 2).any().named_doc("whole", "diffuse light saturates at 1.0");
+        let whole =
+            sum.slice(sum.width() - 1, b + 2).any().named_doc("whole", "diffuse light saturates at 1.0");
         let light = m.cat(&[whole, whole.mux(0, sum.trunc(b + 2))]).named_doc("light", "2^-(b+2)");
         let highlight = m.reg("m_highlight", b).doc("sum of the highlights");
         highlight.when(self.advance, self.cut(total(self.highlights()), "highlights"));

@@ -46,8 +46,9 @@ impl<'m> Tables<'m> {
             (m.reg("current", material.width()).doc("material of the loaded tables"), material)
         });
         let same = current.map(|(current, material)| material.eq(current));
-        let fits =
-            same.map_or(have.q(), |same| have.q() & same).named_doc("fits", "the tables of frag's material are loaded");
+        let fits = same
+            .map_or(have.q(), |same| have.q() & same)
+            .named_doc("fits", "the tables of frag's material are loaded");
         let begins = (frag_valid & !fits & !loading.q() & !occupied).named("begins");
         // As many words as numbers of entry_bits bits: the bit above says that all are asked for.
         let read_valid = (loading.q() & !asked.q().msb()).named("srd_valid");

@@ -29,7 +29,13 @@ pub(super) fn weakened<'m>(
         Light {
             lit: moved(m, advance, &format!("g_lit{i}"), "lit, from stage B", lit),
             diffuse: moved(m, advance, &format!("g_diffuse{i}"), "diffuse light, from stage B", diffuse),
-            highlight: moved(m, advance, &format!("g_highlight{i}"), "highlight times share of the light", cut),
+            highlight: moved(
+                m,
+                advance,
+                &format!("g_highlight{i}"),
+                "highlight times share of the light",
+                cut,
+            ),
         }
     };
     lights.into_iter().enumerate().map(weaken).collect()

@@ -40,7 +40,8 @@ impl<'m> Place<'m> {
 
     /// It goes on when a step is done, and to the reference pixel of a record.
     pub fn step(&self, stepped: Signal<'m>, record: &Record<'m>) {
-        let right = (self.forward ^ self.leftward).named_doc("rightward", "direction of a step along the line");
+        let right =
+            (self.forward ^ self.leftward).named_doc("rightward", "direction of a step along the line");
         // Both are there before the way is known.
         let (one_right, one_left) = (self.x.q() + 1, self.x.q() - 1);
         self.x.when(stepped & !self.down, right.mux(one_right, one_left));
