@@ -24,7 +24,7 @@ pub enum Engine {
     Golden,
     /// Golden's picture of an opaque frame by scan lines: one active list of all edges, no depth buffer, each pixel shaded once
     Scanline,
-    /// The machine's pictures and cycles without ticking; ticks where that is not exact, and says so
+    /// The machine's pictures and cycles without ticking; ticks where that is not exact, with a note
     Fast,
     /// The machine, cycle by cycle, with counts of hazards and corners
     Model,
