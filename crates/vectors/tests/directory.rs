@@ -103,7 +103,9 @@ fn directed_suites_reach_every_hazard_and_corner() {
         let own = machine.shadow.draws_map().then_some(["own_map", "own_picture"]);
         let shade = machine.shade.is_there().then_some("shade");
         let of_light = light.into_iter().chain(own).flatten();
-        for name in ["hazards", "corners", "sphere"].into_iter().chain(of_light).chain(shade) {
+        let dither = machine.dither.is_there().then_some("dither");
+        let own = of_light.chain(shade).chain(dither);
+        for name in ["hazards", "corners", "sphere"].into_iter().chain(own) {
             for stalls in [StallKind::Mixed, StallKind::Late] {
                 let suite = suite(&machine, name);
                 reached.merge(&capture(&machine, Unit::MACHINE, &suite, suite.state, stalls).events);
