@@ -120,7 +120,7 @@ fn directed_suites_reach_every_hazard_and_corner() {
 fn all() -> impl Iterator<Item = (&'static str, Plan)> {
     let shades = common::shades().into_iter().enumerate();
     let shades = shades.filter(|(i, _)| [3, 5, 6, 8].contains(i)).map(|(_, machine)| machine).collect();
-    let units = [common::glass(), common::lights(), shades];
+    let units = [common::glass(), common::lights(), shades, common::dithers()];
     common::twelve().into_iter().chain(units.into_iter().flatten())
 }
 
