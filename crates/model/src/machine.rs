@@ -211,17 +211,16 @@ impl<const C: usize> Model<C> {
     /// are, and so only SETUP and the EDGE that may take its prim are clocked.
     #[inline(always)]
     fn cycle_at_rest(&mut self, inputs: &Inputs) -> Outputs<C> {
-        let tri_ready = self.setup.tri_ready();
-        let activity = if tri_ready { Activity::Idle } else { Activity::Setup };
+        let (tri_ready, idle) = (self.setup.tri_ready(), !self.setup.busy());
+        let activity = if idle { Activity::Idle } else { Activity::Setup };
         self.counters.cycle(activity);
         let prim_ready = self.edge.prim_ready(false);
         self.edge.step(self.setup.prim(), false, false, &mut self.events);
         let light_pass = C > FEW && inputs.shadow.light_pass;
+        let [takes, begins] = self.entering(inputs);
         self.setup.step(inputs.tri, prim_ready, light_pass, &mut self.events);
-        if inputs.tri.is_some() && tri_ready {
-            self.taken();
-        }
-        Outputs { tri_ready, activity, idle: tri_ready, ..Outputs::default() }
+        self.entered(takes, begins);
+        Outputs { tri_ready, activity, idle, ..Outputs::default() }
     }
 
     #[inline(always)]
@@ -241,10 +240,9 @@ impl<const C: usize> Model<C> {
             self.step_stage(&wires, place, inputs);
         }
         self.step_pixel(inputs, &wires, light_pass);
+        let [takes, begins] = self.entering(inputs);
         self.step_lines(inputs, wires.span_ready(), light_pass, tell);
-        if inputs.tri.is_some() && outputs.tri_ready {
-            self.taken();
-        }
+        self.entered(takes, begins);
         outputs
     }
 
@@ -294,7 +292,7 @@ impl<const C: usize> Model<C> {
             one_more(&mut self.counters.writes);
         }
         self.counters.hold(self.span.queued(), self.depth.inflight());
-        if inputs.tri.is_some() && outputs.tri_ready {
+        if self.setup.takes(inputs.tri.is_some()) {
             self.events.machine.setup_overlap += u64::from(self.pixel.active());
         }
     }
@@ -357,10 +355,22 @@ impl<const C: usize> Model<C> {
         setup.step(inputs.tri, prim_ready, light_pass, events);
     }
 
-    /// SETUP has taken a triangle.
-    fn taken(&mut self) {
-        one_more(&mut self.counters.triangles);
-        self.counters.lanes_work(self.setup.clocks());
+    /// Whether SETUP takes a triangle in this cycle, and whether it begins one.
+    #[inline(always)]
+    fn entering(&self, inputs: &Inputs) -> [bool; 2] {
+        let offered = inputs.tri.is_some();
+        [self.setup.takes(offered), self.setup.begins(offered)]
+    }
+
+    /// SETUP has taken a triangle, or begun one: then its clocks are known.
+    #[inline(always)]
+    fn entered(&mut self, takes: bool, begins: bool) {
+        if takes {
+            one_more(&mut self.counters.triangles);
+        }
+        if begins {
+            self.counters.lanes_work(self.setup.clocks());
+        }
     }
 
     fn reset(&mut self) {

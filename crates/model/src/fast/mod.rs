@@ -16,6 +16,7 @@ mod prefetch;
 mod edge;
 mod walk;
 mod inflight;
+mod words;
 mod clock;
 mod pixel;
 mod picture;
