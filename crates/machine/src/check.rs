@@ -11,9 +11,6 @@ use crate::term::{self, WORD_BITS as TERM_BITS};
 /// Longest interpolated word.
 pub const WORD_BITS: u32 = 56;
 
-/// Most channels of a sequenced SETUP: a vertex has a row for x, one for y and one a channel, of eight.
-pub const SEQUENCED_CHANNELS: usize = 6;
-
 /// Longest word of a light's map.
 pub const MAP_BITS: u32 = 32;
 
@@ -79,7 +76,7 @@ pub(crate) fn check(machine: &Machine, channels: &[Channel]) -> Result<(), Machi
         ));
     }
     if machine.setup_kind == SetupKind::Sequenced {
-        sequenced(machine, channels)?;
+        sequenced(machine)?;
     }
     if machine.adders as usize > channels.len() {
         return Err(MachineError::rule(
@@ -206,7 +203,7 @@ fn positional(machine: &Machine) -> Result<(), MachineError> {
 }
 
 /// What the program of SETUP serves.
-fn sequenced(machine: &Machine, channels: &[Channel]) -> Result<(), MachineError> {
+fn sequenced(machine: &Machine) -> Result<(), MachineError> {
     let refused = |reason: &str| {
         let reason = format!("its program has no steps for {reason}");
         Err(MachineError::rule(machine, "setup.kind", reason, "parallel".to_owned()))
@@ -216,12 +213,6 @@ fn sequenced(machine: &Machine, channels: &[Channel]) -> Result<(), MachineError
     }
     if machine.edge_kind == EdgeKind::Slope {
         return refused("edge.kind = slope, only for exact");
-    }
-    if machine.shadow.draws_map() {
-        return refused("a second screen, which shadow.own_pass = yes asks for");
-    }
-    if channels.len() > SEQUENCED_CHANNELS {
-        return refused(&format!("{} channels, {SEQUENCED_CHANNELS} is the most", channels.len()));
     }
     Ok(())
 }

@@ -38,7 +38,7 @@ use wires::Wires;
 pub struct Inputs<'a> {
     /// Synchronous reset.
     pub rst: bool,
-    /// A triangle and its tag.
+    /// A triangle and its tag; where it comes word by word, that of which a word is offered.
     pub tri: Option<(&'a [PortVertex; 3], u32)>,
     /// Compare function, constant while the machine is busy: 0 never, 1 less, 2 equal, 3 lequal, 4 greater, 5 notequal,
     /// 6 gequal, 7 always.
@@ -62,7 +62,7 @@ pub struct Inputs<'a> {
 /// Output ports of the same cycle. A link fires if it is valid here and ready there.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Outputs<const C: usize> {
-    /// A triangle is taken, if there is one.
+    /// A triangle is taken, if there is one, or a word of it.
     pub tri_ready: bool,
     /// Address of a depth read.
     pub rd: Option<u32>,
@@ -211,16 +211,18 @@ impl<const C: usize> Model<C> {
     /// are, and so only SETUP and the EDGE that may take its prim are clocked.
     #[inline(always)]
     fn cycle_at_rest(&mut self, inputs: &Inputs) -> Outputs<C> {
-        let (tri_ready, idle) = (self.setup.tri_ready(), !self.setup.busy());
-        let activity = if idle { Activity::Idle } else { Activity::Setup };
+        let tri_ready = self.setup.tri_ready();
+        let activity = if tri_ready { Activity::Idle } else { Activity::Setup };
         self.counters.cycle(activity);
         let prim_ready = self.edge.prim_ready(false);
         self.edge.step(self.setup.prim(), false, false, &mut self.events);
         let light_pass = C > FEW && inputs.shadow.light_pass;
-        let [takes, begins] = self.entering(inputs);
+        let takes = self.setup.takes(inputs.tri.is_some());
         self.setup.step(inputs.tri, prim_ready, light_pass, &mut self.events);
-        self.entered(takes, begins);
-        Outputs { tri_ready, activity, idle, ..Outputs::default() }
+        if takes {
+            self.taken();
+        }
+        Outputs { tri_ready, activity, idle: tri_ready, ..Outputs::default() }
     }
 
     #[inline(always)]
@@ -240,9 +242,11 @@ impl<const C: usize> Model<C> {
             self.step_stage(&wires, place, inputs);
         }
         self.step_pixel(inputs, &wires, light_pass);
-        let [takes, begins] = self.entering(inputs);
+        let takes = self.setup.takes(inputs.tri.is_some());
         self.step_lines(inputs, wires.span_ready(), light_pass, tell);
-        self.entered(takes, begins);
+        if takes {
+            self.taken();
+        }
         outputs
     }
 
@@ -355,22 +359,10 @@ impl<const C: usize> Model<C> {
         setup.step(inputs.tri, prim_ready, light_pass, events);
     }
 
-    /// Whether SETUP takes a triangle in this cycle, and whether it begins one.
-    #[inline(always)]
-    fn entering(&self, inputs: &Inputs) -> [bool; 2] {
-        let offered = inputs.tri.is_some();
-        [self.setup.takes(offered), self.setup.begins(offered)]
-    }
-
-    /// SETUP has taken a triangle, or begun one: then its clocks are known.
-    #[inline(always)]
-    fn entered(&mut self, takes: bool, begins: bool) {
-        if takes {
-            one_more(&mut self.counters.triangles);
-        }
-        if begins {
-            self.counters.lanes_work(self.setup.clocks());
-        }
+    /// SETUP has taken a triangle.
+    fn taken(&mut self) {
+        one_more(&mut self.counters.triangles);
+        self.counters.lanes_work(self.setup.clocks());
     }
 
     fn reset(&mut self) {

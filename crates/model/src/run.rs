@@ -45,7 +45,7 @@ pub struct Rig<const C: usize> {
 pub struct Cycle<const C: usize> {
     /// The ports of the machine.
     pub outputs: Outputs<C>,
-    /// A triangle was taken; by the word port with its last word.
+    /// A triangle was taken; one that comes word by word with its last word.
     pub triangle: bool,
     /// The address whose read fired; [`Model::last_read`] is its fragment.
     pub read: Option<u32>,

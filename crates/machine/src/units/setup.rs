@@ -3,7 +3,6 @@
 use super::tokens;
 use crate::field::Field;
 use crate::link::Link;
-use crate::link::Status;
 use crate::machine::{Fill, Machine};
 use crate::plan::Plan;
 use crate::unit::{Ports, UnitSpec, always, events, light_pass};
@@ -20,15 +19,10 @@ pub const SPEC: UnitSpec = UnitSpec {
 };
 
 fn ports(plan: &Plan) -> Ports {
-    let (takes, status) = match plan.is_sequenced() {
-        false => (Link::new("tri", tokens::triangle(plan)), Vec::new()),
-        true => (words(plan), vec![Status::new("busy", "a triangle is worked on, offered, or waits")]),
-    };
     Ports {
-        takes: Some(takes),
+        takes: Some(if plan.is_sequenced() { words(plan) } else { Link::new("tri", tokens::triangle(plan)) }),
         gives: Some(Link::new("prim", tokens::prim(plan))),
         constants: light_pass(plan).into_iter().collect(),
-        status,
         ..Ports::default()
     }
 }

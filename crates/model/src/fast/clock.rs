@@ -5,8 +5,7 @@
 //!  a ─S1,S2─> prim p ─> line, held ─move m─> room for F ─pop o─> count·T clocks ─D─> read r ─L─> compare
 //! ```
 //! Every time is the greatest of what it waits for (max-plus), section by section of `docs/machine.md`:
-//! - 2: `a' = p + 1`, or `a + S1 + 1` if culled; `p = max(a + S1 + S2 + 1, EDGE free, first span popped + 1)`;
-//!   of a sequenced SETUP `a` is the cycle in which work on a triangle begins, one after its last word or later: `words`;
+//! - 2: `a' = p + w`, or `a + S1 + w` if culled, with w words of a triangle, 1 if it comes at once; `p = max(a + S1 + S2 + 1, EDGE free, first span popped + 1)`;
 //! - 3, 4: a line leaves EDGE a clock after the one before, `l`, and in the cycle in which that one moves on from SPAN's register;
 //!   it moves in `m >= l + 1`, span k and what lies between it and span k − 1 not before `o(k−F) + 1`, the cycle in which the
 //!   registered FIFO shows the room;
@@ -22,7 +21,6 @@
 //! Not here: a queue that fills and addresses in flight under interlock; such frames are ticked.
 
 use super::inflight::InFlight;
-use super::words::Words;
 use super::walk::Span;
 use crate::counters::Counters;
 use crate::fifo::Fifo;
@@ -66,10 +64,10 @@ pub(super) struct Clock {
     latency: u64,
     drain: bool,
     inflight: Option<InFlight>,
-    /// When the triangles of a sequenced SETUP have come.
-    words: Option<Words>,
+    /// Words of a triangle behind the first, one a cycle.
+    words: u64,
 
-    /// a: the cycle in which SETUP takes the next triangle, or can begin it.
+    /// a: the cycle in which SETUP takes the next triangle; before its words have come, the first of them.
     take: u64,
     /// EDGE takes a prim not before.
     edge_free: u64,
@@ -108,7 +106,7 @@ impl Clock {
             latency: u64::from(plan.latency),
             drain: plan.hazard == Hazard::Drain,
             inflight: InFlight::new(plan, depth_write),
-            words: plan.is_sequenced().then(|| Words::new(plan)),
+            words: if plan.is_sequenced() { u64::from(plan.triangle_words() - 1) } else { 0 },
             take: 0,
             edge_free: 0,
             offer: 0,
@@ -134,7 +132,6 @@ impl Clock {
         self.enter_setup();
         self.setup[0] += u64::from(setup.phase1);
         self.take += u64::from(setup.phase1) + 1;
-        self.place_free(self.take);
     }
 
     /// A triangle that EDGE takes; its lines follow.
@@ -144,7 +141,6 @@ impl Clock {
         self.setup[0] += u64::from(setup.phase1);
         self.setup[1] += u64::from(setup.phase2);
         let ready = self.take + u64::from(setup.all()) + 1;
-        self.place_free(ready);
         let prim = ready.max(self.edge_free);
         self.take = prim + 1;
         self.offer = prim + 1;
@@ -152,14 +148,13 @@ impl Clock {
         self.spend(prim + 1, Activity::Setup);
     }
 
-    /// SETUP works until it takes the next triangle, and is IDLE in that cycle; a sequenced one until the triangle has come.
+    /// SETUP works until it takes the next triangle, and is IDLE in that cycle, or in those of its words.
     #[inline(always)]
     fn enter_setup(&mut self) {
         self.spend(self.take, Activity::Setup);
-        if let Some(words) = &mut self.words {
-            let whole = words.bring() + 1;
-            self.idle_until(whole);
-            self.take = self.take.max(whole);
+        if self.words > 0 {
+            self.take += self.words;
+            self.idle_until(self.take + 1);
         } else if self.counted == self.take {
             let flush = self.last.is_some_and(|last| self.take < last.drained(self.latency));
             self.spend(self.take + 1, if flush { Activity::Flush } else { Activity::Idle });
@@ -175,14 +170,6 @@ impl Clock {
         let drained = self.last.map_or(0, |last| last.drained(self.latency));
         self.spend(drained.min(until), Activity::Flush);
         self.spend(until, Activity::Idle);
-    }
-
-    /// A sequenced SETUP has room for another triangle from this cycle on.
-    #[inline(always)]
-    fn place_free(&mut self, cycle: u64) {
-        if let Some(words) = &mut self.words {
-            words.free(cycle);
-        }
     }
 
     /// Spans of a triangle, from one fence to the next; `fresh`: its first ones.

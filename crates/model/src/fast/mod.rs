@@ -16,7 +16,6 @@ mod prefetch;
 mod edge;
 mod walk;
 mod inflight;
-mod words;
 mod clock;
 mod pixel;
 mod picture;

@@ -141,7 +141,7 @@ impl<const C: usize> Model<C> {
             Activity::Term
         } else if self.span.span().is_some() || self.span.line_held() || self.edge.running() {
             Activity::Edge
-        } else if self.setup.busy() {
+        } else if !self.setup.tri_ready() {
             Activity::Setup
         } else if self.pixel.occupied() || self.in_flight() {
             Activity::Flush

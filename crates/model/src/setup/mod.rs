@@ -13,7 +13,6 @@
 //! Rules: `docs/machine.md`, section 2. Not modelled: the lanes bit by bit; all is computed when the triangle arrives
 //! and appears when the hardware would have it.
 
-pub(crate) mod words;
 pub(crate) mod sort;
 pub(crate) mod edges;
 mod channels;
@@ -30,7 +29,6 @@ use clocks::Timing;
 use edges::Screen;
 use edgewalk_machine::{Plan, PortVertex};
 use sort::{Corner, Sorted};
-use words::WordPort;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum State {
@@ -63,8 +61,10 @@ pub struct Setup<const C: usize> {
     taken: u32,
     /// With TERM: the number of the last triangle since reset, -1 before the first.
     record: u32,
-    /// Of a sequenced SETUP; it starts with a triangle that has come whole.
-    words: Option<Box<WordPort>>,
+    /// Words of a triangle at the port: 1 where it comes at once.
+    words: u32,
+    /// Words taken of the triangle that comes.
+    come: u32,
 }
 
 impl<const C: usize> Setup<C> {
@@ -85,7 +85,8 @@ impl<const C: usize> Setup<C> {
             sorted: Box::new(Sorted { corners: [Corner { u: 0, v: 0, values: [0; C] }; 3] }),
             taken: 0,
             record: u32::MAX,
-            words: plan.is_sequenced().then(|| Box::new(WordPort::new(plan))),
+            words: if plan.is_sequenced() { plan.triangle_words() } else { 1 },
+            come: 0,
         }
     }
 
@@ -94,38 +95,21 @@ impl<const C: usize> Setup<C> {
         self.state = State::Idle;
         self.remaining = 0;
         self.record = u32::MAX;
-        if let Some(port) = &mut self.words {
-            port.reset();
-        }
+        self.come = 0;
     }
 
-    /// A triangle can be taken: the unit is IDLE. Of a sequenced SETUP: a word of a triangle.
+    /// A triangle, or a word of one, can be taken: the unit is IDLE.
     #[inline]
     #[must_use]
     pub fn tri_ready(&self) -> bool {
-        self.words.as_ref().map_or(self.state == State::Idle, |port| port.ready())
+        self.state == State::Idle
     }
 
-    /// A triangle is worked on, offered, or waits.
-    #[inline]
-    #[must_use]
-    pub fn busy(&self) -> bool {
-        self.state != State::Idle || self.words.as_ref().is_some_and(|port| port.triangle().is_some())
-    }
-
-    /// A triangle is taken in this cycle, if one is offered; of a sequenced SETUP if the word is its last.
+    /// A triangle is taken in this cycle, if one is offered: with its last word.
     #[inline]
     #[must_use]
     pub fn takes(&self, offered: bool) -> bool {
-        offered && self.tri_ready() && self.words.as_ref().is_none_or(|port| port.is_last())
-    }
-
-    /// Work on a triangle begins behind this cycle, if one is offered; of a sequenced SETUP if one waits.
-    #[inline]
-    #[must_use]
-    pub fn begins(&self, offered: bool) -> bool {
-        let there = self.words.as_ref().map_or(offered, |port| port.triangle().is_some());
-        self.state == State::Idle && there
+        offered && self.tri_ready() && self.come + 1 == self.words
     }
 
     /// The triangle offered to EDGE.
@@ -142,43 +126,9 @@ impl<const C: usize> Setup<C> {
         self.clocks
     }
 
-    /// Clock edge, with a triangle offered or none; of a sequenced SETUP with one of its words.
+    /// Clock edge, with a triangle offered or none; where it comes word by word with one of its words.
     #[inline(always)]
     pub fn step(
-        &mut self,
-        tri: Option<(&[PortVertex; 3], u32)>,
-        prim_ready: bool,
-        light_pass: bool,
-        events: &mut Events,
-    ) {
-        if self.words.is_none() {
-            self.work(tri, prim_ready, light_pass, events);
-        } else if let Some(mut port) = self.words.take() {
-            let whole = port.triangle().map(|(vertices, tag)| (vertices, *tag));
-            let working = self.state == State::Phase1;
-            self.work(whole, prim_ready, light_pass, events);
-            if working && self.state != State::Phase1 {
-                port.free();
-            }
-            port.step(tri);
-            self.words = Some(port);
-        }
-    }
-
-    /// Not hardware: an idle unit takes a triangle and works until it offers it, or has culled it.
-    pub fn run(&mut self, triangle: &[PortVertex; 3], events: &mut Events) -> Option<Prim<C>> {
-        let mut offered = Some((triangle, 0));
-        while offered.is_some() || (self.busy() && self.state != State::Done) {
-            let takes = self.takes(offered.is_some());
-            self.step(offered, false, false, events);
-            offered = offered.filter(|_| !takes);
-        }
-        self.prim().copied()
-    }
-
-    /// The states, with a triangle that can be begun or none.
-    #[inline(always)]
-    fn work(
         &mut self,
         tri: Option<(&[PortVertex; 3], u32)>,
         prim_ready: bool,
@@ -195,16 +145,32 @@ impl<const C: usize> Setup<C> {
         match self.state {
             State::Idle => {
                 if let Some((vertices, tag)) = tri {
+                    self.come += 1;
+                    if self.come < self.words {
+                        return;
+                    }
+                    self.come = 0;
                     self.screen = Screen::of_pass(&self.plan, light_pass);
                     self.take(vertices, tag, events);
                 }
             }
             State::Phase1 if self.culled => self.state = State::Idle,
-            State::Phase1 if self.clocks.phase2 == 0 => self.state = State::Done, // sequenced
+            State::Phase1 if self.clocks.phase2 == 0 => self.state = State::Done, // sequenced: WORK is over
             State::Phase1 => self.enter(State::Phase2, self.clocks.phase2),
             State::Phase2 => self.state = State::Done,
             State::Done => self.state = State::Idle,
         }
+    }
+
+    /// Not hardware: an idle unit takes a triangle and works until it offers it, or has culled it.
+    pub fn run(&mut self, triangle: &[PortVertex; 3], events: &mut Events) -> Option<Prim<C>> {
+        let mut offered = Some((triangle, 0));
+        while offered.is_some() || (self.prim().is_none() && !self.tri_ready()) {
+            let takes = self.takes(offered.is_some());
+            self.step(offered, false, false, events);
+            offered = offered.filter(|_| !takes);
+        }
+        self.prim().copied()
     }
 
     fn enter(&mut self, state: State, cycles: u32) {
@@ -330,9 +296,6 @@ impl<const C: usize> Ported<C> for Setup<C> {
     fn show(&self, _: &Pins<Self::Takes, C>, out: &mut impl Shown) {
         out.takes(self.tri_ready());
         out.gives(self.prim());
-        if self.words.is_some() {
-            out.status("busy", self.busy());
-        }
     }
 
     fn clock(&mut self, pins: &Pins<Self::Takes, C>, events: &mut Events) {
