@@ -17,6 +17,7 @@ pub(crate) mod sort;
 pub(crate) mod edges;
 mod channels;
 pub(crate) mod clocks;
+mod sequenced;
 mod schedule;
 mod view;
 
@@ -26,7 +27,7 @@ use crate::Events;
 use crate::ports::{Pins, Ported, Shown};
 use crate::tokens::{FEW, Prim, Source};
 use clocks::Timing;
-use edges::Screen;
+use edges::{Parts, Screen};
 use edgewalk_machine::{Plan, PortVertex};
 use sort::{Corner, Sorted};
 
@@ -254,6 +255,19 @@ pub(crate) fn prepare<const C: usize>(
     prim: &mut Prim<C>,
 ) -> (SetupClocks, Option<Culled>) {
     let parts = edges::parts(plan, screen, sorted);
+    let (clocks, culled) = found(plan, timing, screen, sorted, &parts, prim);
+    (timing.of_program(screen, sorted, &parts, prim).unwrap_or(clocks), culled)
+}
+
+/// The same with the clocks of a parallel SETUP.
+fn found<const C: usize>(
+    plan: &Plan,
+    timing: &Timing,
+    screen: Screen,
+    sorted: &Sorted<C>,
+    parts: &Parts,
+    prim: &mut Prim<C>,
+) -> (SetupClocks, Option<Culled>) {
     if parts.lines == [0, 0] {
         return (timing.culled(), Some(Culled::Lines));
     }
@@ -262,7 +276,7 @@ pub(crate) fn prepare<const C: usize>(
     }
     let area = sorted.area();
     let scale = timing.scale(sorted, area);
-    let phase1 = timing.phase1(sorted, &parts, scale);
+    let phase1 = timing.phase1(sorted, parts, scale);
     if area == 0 {
         return (SetupClocks { phase1, phase2: 0 }, Some(Culled::Area));
     }
@@ -276,8 +290,8 @@ pub(crate) fn prepare<const C: usize>(
         minor: [edges::walk(plan, a, b, j0, n1), edges::walk(plan, b, c, j1, n2)],
         ..Prim::default()
     };
-    channels::prepare(plan, sorted, &parts, prim);
-    let phase2 = timing.phase2(sorted, &parts, prim, (area, scale));
+    channels::prepare(plan, sorted, parts, prim);
+    let phase2 = timing.phase2(sorted, parts, prim, (area, scale));
     (SetupClocks { phase1, phase2 }, None)
 }
 
