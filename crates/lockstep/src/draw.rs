@@ -215,7 +215,9 @@ fn draw_part(
 
 /// What the ports tell of every address, and of the run.
 struct Picture {
-    tri: Link,
+    triangles: Link,
+    /// Words taken of the triangle that comes, where it comes word by word.
+    words: usize,
     rd: Link,
     /// The write of the pixel; with BLEND that of its colours, and the depth has its own.
     write: Writes,
@@ -298,7 +300,8 @@ impl Picture {
         };
         let cleared: Vec<u32> = (0..plan.channels().len()).map(clear).collect();
         Picture {
-            tri: link("tri"),
+            triangles: interface.links.first().cloned().expect("a machine takes triangles"),
+            words: 0,
             rd: link("rd"),
             tag: write.place("tag"),
             lit_field: write.place("lit"),
@@ -347,7 +350,13 @@ impl Picture {
         counters.cycles += 1;
         let activity = Activity::ALL.get(ports[self.activity] as usize).copied().unwrap_or_default();
         counters.activity[activity as usize] += 1;
-        counters.triangles += u64::from(self.tri.fires(ports));
+        if self.triangles.fires(ports) {
+            self.words += 1;
+            if self.words >= self.triangles.words.len() {
+                self.words = 0;
+                counters.triangles += 1;
+            }
+        }
         if let Some([address, ..]) = self.rd.fires(ports).then(|| self.rd.token(ports)) {
             self.coverage[*address as usize] += 1;
             counters.fragments += 1;

@@ -3,7 +3,7 @@
 use crate::channel::{Channel, MAX_CHANNELS};
 use crate::error::MachineError;
 use crate::keys::KEYS;
-use crate::machine::{Fill, Machine};
+use crate::machine::{EdgeKind, Fill, Machine, SetupKind};
 use crate::shade::ShadeColour;
 use crate::shadow::LIGHT_SPACE;
 use crate::term::{self, WORD_BITS as TERM_BITS};
@@ -74,6 +74,9 @@ pub(crate) fn check(machine: &Machine, channels: &[Channel]) -> Result<(), Machi
             ),
             own.saturating_sub(channels.len() - MAX_CHANNELS).to_string(),
         ));
+    }
+    if machine.setup_kind == SetupKind::Sequenced {
+        sequenced(machine)?;
     }
     if machine.adders as usize > channels.len() {
         return Err(MachineError::rule(
@@ -195,6 +198,21 @@ fn positional(machine: &Machine) -> Result<(), MachineError> {
     if machine.shade.bumps() {
         let reason = "a relief wants shade.light = directional".to_owned();
         return Err(MachineError::rule(machine, "texture.bump", reason, "no".to_owned()));
+    }
+    Ok(())
+}
+
+/// What the program of SETUP serves.
+fn sequenced(machine: &Machine) -> Result<(), MachineError> {
+    let refused = |reason: &str| {
+        let reason = format!("its program has no steps for {reason}");
+        Err(MachineError::rule(machine, "setup.kind", reason, "parallel".to_owned()))
+    };
+    if machine.fill == Fill::Textbook {
+        return refused("edge.fill = textbook, only for exact");
+    }
+    if machine.edge_kind == EdgeKind::Slope {
+        return refused("edge.kind = slope, only for exact");
     }
     Ok(())
 }

@@ -56,7 +56,7 @@ pub use error::MachineError;
 pub use extra::ExtraChannel;
 pub use field::{Field, Scale};
 pub use link::{Held, Link, MemoryPort, Ready, Status};
-pub use machine::{EdgeKind, Fill, Hazard, Machine};
+pub use machine::{EdgeKind, Fill, Hazard, Machine, SetupKind};
 pub use plan::Plan;
 pub use record::{Entry, Record};
 pub use shade::{Bump, Shade, ShadeColour, ShadeKind, ShadeLight, Texture, Walk};

@@ -38,7 +38,7 @@ use wires::Wires;
 pub struct Inputs<'a> {
     /// Synchronous reset.
     pub rst: bool,
-    /// A triangle and its tag.
+    /// A triangle and its tag; where it comes word by word, that of which a word is offered.
     pub tri: Option<(&'a [PortVertex; 3], u32)>,
     /// Compare function, constant while the machine is busy: 0 never, 1 less, 2 equal, 3 lequal, 4 greater, 5 notequal,
     /// 6 gequal, 7 always.
@@ -62,7 +62,7 @@ pub struct Inputs<'a> {
 /// Output ports of the same cycle. A link fires if it is valid here and ready there.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Outputs<const C: usize> {
-    /// A triangle is taken, if there is one.
+    /// A triangle is taken, if there is one, or a word of it.
     pub tri_ready: bool,
     /// Address of a depth read.
     pub rd: Option<u32>,
@@ -217,8 +217,9 @@ impl<const C: usize> Model<C> {
         let prim_ready = self.edge.prim_ready(false);
         self.edge.step(self.setup.prim(), false, false, &mut self.events);
         let light_pass = C > FEW && inputs.shadow.light_pass;
+        let takes = self.setup.takes(inputs.tri.is_some());
         self.setup.step(inputs.tri, prim_ready, light_pass, &mut self.events);
-        if inputs.tri.is_some() && tri_ready {
+        if takes {
             self.taken();
         }
         Outputs { tri_ready, activity, idle: tri_ready, ..Outputs::default() }
@@ -241,8 +242,9 @@ impl<const C: usize> Model<C> {
             self.step_stage(&wires, place, inputs);
         }
         self.step_pixel(inputs, &wires, light_pass);
+        let takes = self.setup.takes(inputs.tri.is_some());
         self.step_lines(inputs, wires.span_ready(), light_pass, tell);
-        if inputs.tri.is_some() && outputs.tri_ready {
+        if takes {
             self.taken();
         }
         outputs
@@ -294,7 +296,7 @@ impl<const C: usize> Model<C> {
             one_more(&mut self.counters.writes);
         }
         self.counters.hold(self.span.queued(), self.depth.inflight());
-        if inputs.tri.is_some() && outputs.tri_ready {
+        if self.setup.takes(inputs.tri.is_some()) {
             self.events.machine.setup_overlap += u64::from(self.pixel.active());
         }
     }

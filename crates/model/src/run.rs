@@ -45,7 +45,7 @@ pub struct Rig<const C: usize> {
 pub struct Cycle<const C: usize> {
     /// The ports of the machine.
     pub outputs: Outputs<C>,
-    /// A triangle was taken.
+    /// A triangle was taken; one that comes word by word with its last word.
     pub triangle: bool,
     /// The address whose read fired; [`Model::last_read`] is its fragment.
     pub read: Option<u32>,
@@ -90,11 +90,12 @@ impl<const C: usize> Rig<C> {
     pub fn cycle(&mut self, tri: Option<(&[PortVertex; 3], u32)>, writes_open: bool) -> Cycle<C> {
         let Rig { model, memories } = self;
         let inputs = memories.inputs(tri, writes_open);
+        let triangle = model.setup.takes(tri.is_some());
         let outputs =
             model.cycle_and_tell(&inputs, |line| memories.depth.expect(line.y, [line.major, line.minor]));
         let cycle = Cycle {
             outputs,
-            triangle: outputs.tri_ready && tri.is_some(),
+            triangle,
             read: outputs.rd.filter(|_| inputs.rd_ready),
             written: outputs.wr.is_some() && inputs.wr_ready,
             color_written: outputs.blend.cwr.is_some() && inputs.blend.cwr_ready,

@@ -181,6 +181,25 @@ fn memories_that_can_not_be() {
 }
 
 #[test]
+fn contents_that_can_not_be() {
+    let found = messages(|m| {
+        let rom = m.memory("rom", 2, 4, 8).holds(0, 1, "").holds(1, 256, "").holds(1, 2, "").holds(4, 0, "");
+        m.output("q", rom.read(m.lit(1, 1), m.input("addr", 2)));
+        let full = m.memory("full", 1, 2, 8).holds(1, 3, "").starts(0);
+        m.output("p", full.read(m.lit(1, 1), m.input("bit", 1)));
+    });
+    assert_eq!(
+        found,
+        [
+            "256 does not fit in 8 bits",
+            "word 1 of memory `rom` is given contents twice",
+            "memory `rom` has 4 words: there is no word 4 to hold anything",
+            "nothing writes memory `rom`, but word 2 has no contents: every word of a ROM needs them",
+        ]
+    );
+}
+
+#[test]
 fn a_loop_is_reported_by_its_names() {
     let found = messages(|m| {
         let a = m.input("a", 4);

@@ -1,4 +1,4 @@
-//! Triangles at the machine's port, as tokens of `tri`.
+//! Triangles at the machine's port, as tokens of the link by which they come: at once, or word by word.
 
 use crate::Token;
 use crate::interface::{Interface, Link};
@@ -12,6 +12,7 @@ pub type Triangle = [PortVertex; 3];
 #[derive(Clone, Debug)]
 pub struct Triangles {
     plan: Plan,
+    link: Link,
     /// What stands in each field, with its bits.
     fields: Vec<(Part, u32)>,
 }
@@ -38,9 +39,8 @@ impl Triangles {
 
     /// Finds the fields by name; `None` if one of them is no part of a triangle.
     pub(super) fn of(plan: &Plan, link: &Link) -> Option<Triangles> {
-        let fields =
-            link.fields.iter().map(|port| Some((Part::named(plan, &port.field.name)?, port.width())));
-        Some(Triangles { plan: plan.clone(), fields: fields.collect::<Option<_>>()? })
+        let fields = link.whole().map(|field| Some((Part::named(plan, &field.name)?, field.width())));
+        Some(Triangles { plan: plan.clone(), link: link.clone(), fields: fields.collect::<Option<_>>()? })
     }
 
     /// The triangle as a token; of the tag the low bits.
@@ -57,6 +57,16 @@ impl Triangles {
             number as u128 & (u128::MAX >> (128 - width))
         };
         self.fields.iter().map(value).collect()
+    }
+
+    /// What is offered at the port, one after the other, to bring in a triangle: a token, or all its words.
+    #[must_use]
+    pub fn offers(&self, triangle: &Triangle, tag: u32) -> Vec<Token> {
+        let whole = self.pack(triangle, tag);
+        match self.link.words.len() {
+            0 => vec![whole],
+            words => (0..words).map(|place| self.link.word(&whole, place)).collect(),
+        }
     }
 
     /// The triangle and the tag of a token.

@@ -105,14 +105,17 @@ impl Setup {
         let j1 = knee.clamp(j0, end);
         let [left, right] = self.columns([a.u, b.u, c.u]);
         if end == j0 || right <= left {
-            return Ok((self.timing.culled(), false));
+            let parts = Parts { first: [j0, j1], lines: [(j1 - j0) as u32, (end - j1) as u32] };
+            let clocks = self.of_program(sorted, &parts, prim);
+            return Ok((clocks.unwrap_or(self.timing.culled()), false));
         }
         let parts = Parts { first: [j0, j1], lines: [(j1 - j0) as u32, (end - j1) as u32] };
         let area = du1 * dv2 - du2 * dv1;
         let scale = self.timing.scale(sorted, area);
         let phase1 = self.timing.phase1(sorted, &parts, scale);
         if area == 0 {
-            return Ok((SetupClocks { phase1, phase2: 0 }, false));
+            let clocks = self.of_program(sorted, &parts, prim);
+            return Ok((clocks.unwrap_or(SetupClocks { phase1, phase2: 0 }), false));
         }
         let line = if j1 > j0 { j0 } else { j1 };
         let major_right = area < 0;
@@ -169,7 +172,13 @@ impl Setup {
             source: Source::default(),
         };
         let phase2 = self.timing.phase2(sorted, &parts, prim, (area, scale));
-        Ok((SetupClocks { phase1, phase2 }, true))
+        let clocks = self.of_program(sorted, &parts, prim);
+        Ok((clocks.unwrap_or(SetupClocks { phase1, phase2 }), true))
+    }
+
+    #[inline(always)]
+    fn of_program(&self, sorted: &Sorted<FEW>, parts: &Parts, prim: &Prim<FEW>) -> Option<SetupClocks> {
+        self.timing.of_program(Screen::picture(&self.plan), sorted, parts, prim)
     }
 
     /// Top first; of equal v the earlier comes first.

@@ -25,6 +25,13 @@ impl Screen {
     }
 }
 
+impl Screen {
+    /// The first column at or right of each corner, cut to the screen.
+    pub(super) fn columns<const C: usize>(self, t: u32, sorted: &Sorted<C>) -> [i64; 3] {
+        [0, 1, 2].map(|i| (-(-sorted.corners[i].u >> t)).clamp(0, self.width)) // rounded up
+    }
+}
+
 /// The drawn lines of the upper and the lower part.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Parts {

@@ -154,6 +154,7 @@ impl<const C: usize> Device for MachineDevice<C> {
         }
         let outputs = self.model.cycle(&inputs);
         self.show(&outputs, ports);
+        self.tri.clock(ports);
     }
 }
 

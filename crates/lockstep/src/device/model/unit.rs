@@ -228,6 +228,7 @@ impl<U: Ported<C>, K: Takes<U::Takes>, const C: usize> Device for UnitDevice<U, 
         if ports.rst {
             self.unit.clear();
         }
+        self.taker.clock(ports);
     }
 }
 
