@@ -164,9 +164,9 @@ fn two_modules_of_one_name() {
 #[test]
 fn memories_that_can_not_be() {
     let found = messages(|m| {
-        m.memory("none", 4, 0, 8);
-        m.memory("far", 4, 17, 8);
-        m.memory("near", 4, 8, 8);
+        m.memory("none", 4, 0, 8).starts(0);
+        m.memory("far", 4, 17, 8).starts(0);
+        m.memory("near", 4, 8, 8).starts(0);
         m.memory("full", 4, 16, 8).starts(256);
     });
     assert_eq!(
@@ -186,7 +186,7 @@ fn contents_that_can_not_be() {
         let rom = m.memory("rom", 2, 4, 8).holds(0, 1, "").holds(1, 256, "").holds(1, 2, "").holds(4, 0, "");
         m.output("q", rom.read(m.lit(1, 1), m.input("addr", 2)));
         let full = m.memory("full", 1, 2, 8).holds(1, 3, "").starts(0);
-        m.output("p", full.read(m.lit(1, 1), m.input("bit", 1)));
+        m.output("p", full.read(m.lit(1, 1), m.input("low", 1)));
     });
     assert_eq!(
         found,

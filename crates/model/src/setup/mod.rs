@@ -257,7 +257,12 @@ pub(crate) fn prepare<const C: usize>(
 ) -> (SetupClocks, Option<Culled>) {
     let parts = edges::parts(plan, screen, sorted);
     let (clocks, culled) = found(plan, timing, screen, sorted, &parts, prim);
-    (timing.of_program(screen, sorted, &parts, prim).unwrap_or(clocks), culled)
+    let Some(clocks) = timing.of_program(screen, sorted, &parts, prim) else { return (clocks, culled) };
+    for (edge, lines) in prim.minor.iter_mut().zip(parts.lines) {
+        // The program leaves out what is not walked.
+        edge.m = if lines == 0 { 0 } else { edge.m };
+    }
+    (clocks, culled)
 }
 
 /// The same with the clocks of a parallel SETUP.

@@ -106,7 +106,7 @@ fn a_bit_of_a_rom_that_nobody_sees_is_equivalent() {
     let rom = m.memory("rom", 2, 4, 2);
     [1, 2, 0, 3].into_iter().enumerate().for_each(|(row, word)| _ = rom.holds(row, word, ""));
     let word = rom.read(m.lit(1, 1), pc.q());
-    let last = m.reg("last", 2).reset(0).set(pc.q());
+    let last = m.reg("last", 2).set(pc.q());
     m.output("low", word.bit(0));
     m.output("high", word.bit(1) & last.q().ne(2));
     let netlist = m.finish().expect("a module");

@@ -131,7 +131,8 @@ fn module(random: &mut Pcg64Mcg, name: &str, below: &[Arc<Netlist>], operators: 
     let mut any_word = || random.random::<u128>() & (u128::MAX >> (128 - word));
     (0..words).step_by(3).for_each(|row| _ = ram.holds(row, any_word(), "a row of its own"));
     (0..words).for_each(|row| _ = rom.holds(row, any_word(), ""));
-    pool.push(rom.read(!go | pool.any(random, 1), pool.any(random, addr_bits)), true);
+    let fetched = rom.read(!go | pool.any(random, 1), pool.any(random, addr_bits));
+    pool.push(fetched, true);
     for _ in 0..random.random_range(1..=2) {
         ram.write(go & pool.any(random, 1), pool.any(random, addr_bits), pool.any(random, word));
     }
