@@ -14,6 +14,8 @@ mod values;
 mod operands;
 mod results;
 
+mod sequencer;
+
 use std::sync::Arc;
 
 use edgewalk_machine::Plan;
@@ -48,6 +50,9 @@ Rules: all results are those of exact division, rounded once; a word keeps its l
 /// # Errors
 /// None for a machine that [`edgewalk_machine::Machine::plan`] accepts.
 pub fn setup(plan: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
+    if plan.is_sequenced() {
+        return sequencer::setup(plan);
+    }
     let m = Module::new("edgewalk_setup", DOC);
     let ports = Interface::new(&m, (SPEC.ports)(plan));
     let (tri_valid, triangle) = ports.takes();
