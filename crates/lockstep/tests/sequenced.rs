@@ -28,7 +28,12 @@ fn sequenced_setup_equals_its_model() {
         ("blend.kind", "constant"),
         ("machine.tag_bits", "5"),
     ];
-    let small = [("screen.width", "20"), ("screen.height", "20"), ("screen.subpixel_bits", "0"), ("screen.guard_bits", "5")];
+    let small = [
+        ("screen.width", "20"),
+        ("screen.height", "20"),
+        ("screen.subpixel_bits", "0"),
+        ("screen.guard_bits", "5"),
+    ];
     let map = [("shadow.light", "parallel"), ("shadow.own_pass", "yes"), ("shadow.size", "40")];
     let mut rng = Pcg64Mcg::seed_from_u64(31);
     let mut all = Checked::default();

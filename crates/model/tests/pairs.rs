@@ -379,7 +379,7 @@ fn pairs_give_what_the_formulae_say() {
     let mut all = 0;
     for (seed, (fill, kind)) in kinds.into_iter().enumerate() {
         let mut rng = StdRng::seed_from_u64(seed as u64);
-        let mut settings = vec![("edge.fill", fill), ("edge.kind", kind)];
+        let mut settings = vec![("edge.fill", fill), ("edge.kind", kind), ("setup.kind", "parallel")];
         if fill == "textbook" {
             settings.push(("screen.subpixel_bits", "0"));
         }

@@ -3,8 +3,8 @@
 use edgewalk_machine::key::Domain;
 use edgewalk_machine::keys::KEYS;
 use edgewalk_machine::{
-    BlendKind, Fill, MAX_CHANNELS, Machine, Plan, Precision, ShadeColour, ShadeLight, ShadowLight, Texture,
-    Transmits,
+    BlendKind, EdgeKind, Fill, MAX_CHANNELS, Machine, Plan, Precision, SetupKind, ShadeColour, ShadeLight,
+    ShadowLight, Texture, Transmits,
 };
 use rand::Rng;
 use rand::seq::IndexedRandom;
@@ -60,6 +60,9 @@ fn draw(rng: &mut Pcg64Mcg) -> Machine {
     machine.guard_bits =
         if rng.random_bool(0.1) { rng.random_range(8..=14) } else { rng.random_range(2..=6) };
     machine.tag_bits = *[0, 1, 5, 32].choose(rng).expect("four");
+    if machine.setup_kind == SetupKind::Sequenced {
+        (machine.fill, machine.edge_kind) = (Fill::Exact, EdgeKind::Exact);
+    }
     if machine.fill == Fill::Textbook {
         machine.subpixel_bits = 0;
     }

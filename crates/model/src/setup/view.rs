@@ -9,6 +9,7 @@ use edgewalk_machine::units::tokens::{EDGES, results};
 use edgewalk_machine::{Fill, PortVertex};
 
 const STATES: [&str; 4] = ["IDLE", "PHASE1", "PHASE2", "DONE"];
+const SEQUENCED_STATES: [&str; 4] = ["IDLE", "WORK", "-", "DONE"];
 
 impl<const C: usize> Setup<C> {
     /// Shows the unit in a cycle with these inputs.
@@ -16,16 +17,29 @@ impl<const C: usize> Setup<C> {
         view.unit(&self.plan, "setup");
         let idle = self.state == State::Idle;
         view.triangle((!idle).then(|| self.taken.wrapping_sub(1)));
-        let state = view.code("state", "what the unit is at", &STATES, self.state as usize);
+        let states = if self.plan.is_sequenced() { &SEQUENCED_STATES } else { &STATES };
+        let state = view.code("state", "what the unit is at", states, self.state as usize);
         view.phase(state);
         let job = self.view_job(view);
         self.view_corners(view);
         self.view_edges(view);
         self.view_channels(view);
-        view.note("the lanes bit by bit are not modelled: a result appears when the hardware would have it");
+        if self.plan.is_sequenced() {
+            view.number("words_taken", "of the triangle that comes", 16, self.come);
+            view.note("the words of the program are not modelled: only their number, and what they give");
+        } else {
+            view.note(
+                "the lanes bit by bit are not modelled: a result appears when the hardware would have it",
+            );
+        }
 
         let done = self.state == State::Done;
-        view.says(idle && tri.is_some(), "takes a triangle and sorts its vertices from top to bottom.");
+        let last = self.come + 1 == self.words;
+        view.says(
+            idle && tri.is_some() && last,
+            "takes a triangle and sorts its vertices from top to bottom.",
+        );
+        view.says(idle && tri.is_some() && !last, "takes a word of a triangle.");
         for (number, text) in Job::SAYS.iter().enumerate().skip(1) {
             view.says(job == number, &format!("clock {{clock}} of {{clocks}}: {text}."));
         }
@@ -36,7 +50,7 @@ impl<const C: usize> Setup<C> {
             done && !prim_ready,
             "waits with the triangle: EDGE walks, or PIXEL has not taken the increments of the one before.",
         );
-        view.takes("tri", tri.is_some(), idle);
+        view.takes(if self.plan.is_sequenced() { "in" } else { "tri" }, tri.is_some(), idle);
         view.gives("prim", Some("edge"), done, prim_ready);
         view.step("triangle", 't');
     }
@@ -68,6 +82,9 @@ impl<const C: usize> Setup<C> {
     }
 
     pub(super) fn jobs(&self) -> Schedule {
+        if self.plan.is_sequenced() {
+            return Schedule([vec![(Job::Program, self.clocks.phase1)], Vec::new()]);
+        }
         let parts = parts(&self.plan, self.screen, &self.sorted);
         let at_once = parts.lines == [0, 0] || no_columns(&self.plan, self.screen, &self.sorted);
         schedule(&self.plan, &self.sorted, &parts, at_once, &self.prim)

@@ -26,10 +26,14 @@ impl<'m> Digits<'m> {
         let Parts { m, plan, .. } = parts;
         let bits = factor_bits(plan);
         m.comment("The factors of a sum: the highest bit of each is the digit that has come up.");
-        let own: Vec<usize> = (0..parts.lanes.len()).filter(|lane| *lane == 0 || parts.has_own_edge(*lane)).collect();
-        let factor = |name: &str, lane: usize| m.reg(&format!("{name}{lane}"), bits).doc("factor, signed, left-aligned");
+        let own: Vec<usize> =
+            (0..parts.lanes.len()).filter(|lane| *lane == 0 || parts.has_own_edge(*lane)).collect();
+        let factor = |name: &str, lane: usize| {
+            m.reg(&format!("{name}{lane}"), bits).doc("factor, signed, left-aligned")
+        };
         let pairs = own.iter().map(|lane| [factor("f", *lane), factor("g", *lane)]).collect();
-        let left = m.reg("left", bits.ilog2() + 1).doc("digits that are left, the one that has come up among them");
+        let left =
+            m.reg("left", bits.ilog2() + 1).doc("digits that are left, the one that has come up among them");
         let skips = m.reg("skips", 1).doc("leading digits may be left to skip").reset(0);
         let loads_f = parts.later("loads_f", parts.word.get("load_f"));
         let loads_g = parts.later("loads_g", parts.word.get("load_g"));
@@ -67,7 +71,12 @@ impl<'m> Digits<'m> {
     }
 
     /// The registers' updates: loaded, shifted by a word, or skipped.
-    pub fn update(&self, parts: &Parts<'_, 'm>, zero: Signal<'m>, counts: impl Fn(usize) -> Option<Signal<'m>>) {
+    pub fn update(
+        &self,
+        parts: &Parts<'_, 'm>,
+        zero: Signal<'m>,
+        counts: impl Fn(usize) -> Option<Signal<'m>>,
+    ) {
         let bits = factor_bits(parts.plan);
         let differs = |count: u32| {
             move |factor: Signal<'m>| {
@@ -76,7 +85,8 @@ impl<'m> Digits<'m> {
             }
         };
         let top = self.any(&counts, differs(2)).named_doc("top", "the next digit differs from a sign");
-        let top4 = self.any(&counts, differs(5)).named_doc("top4", "one of the next four differs from a sign");
+        let top4 =
+            self.any(&counts, differs(5)).named_doc("top4", "one of the next four differs from a sign");
         let more = self.left.q().gt(4);
         let ends = (top | self.is_last).named("ends");
         let by_four = (self.skips.q() & !top4 & more).named("by_four");

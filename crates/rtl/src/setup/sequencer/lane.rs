@@ -63,7 +63,9 @@ pub(super) fn lane(name: &str, shape: &Shape) -> Result<Arc<Netlist>, BuildError
     let by_a = m.input_doc("by_a", 1, "the row is a modulus, subtracted if A >= 0");
     let of_whole = m.input_doc("of_whole", 1, "the low bits of W stand for the row of A");
     let raises: Vec<_> = (shape.raises.iter())
-        .map(|bits| (*bits, m.input_doc(&format!("raise_{bits}"), 1, "the row of A is added to W too, so far up")))
+        .map(|bits| {
+            (*bits, m.input_doc(&format!("raise_{bits}"), 1, "the row of A is added to W too, so far up"))
+        })
         .collect();
 
     m.comment("Rows.");

@@ -11,9 +11,9 @@ mod results;
 
 use std::sync::Arc;
 
+use edgewalk_machine::Plan;
 use edgewalk_machine::sequencer::{Program, edges_are_beside};
 use edgewalk_machine::units::setup::SPEC;
-use edgewalk_machine::Plan;
 use edgewalk_netlist::{BuildErrors, Instance, Module, Netlist, Signal};
 
 use crate::light_pass::LightPass;

@@ -42,7 +42,8 @@ pub(super) fn results<'m>(parts: &Parts<'_, 'm>, control: &Control<'m>, fields: 
             (None, _) => number.eq(edge as u128),
         };
         let whole = parts.of_lane(lane, "whole");
-        for (part, what) in [("m", Give::M), ("q", Give::Qf), ("f", Give::Qf), ("r", Give::R), ("c", Give::C)] {
+        for (part, what) in [("m", Give::M), ("q", Give::Qf), ("f", Give::Qf), ("r", Give::R), ("c", Give::C)]
+        {
             let register = prim[format!("{name}_{part}").as_str()];
             let bits = register.q().width();
             let value = match part {

@@ -76,7 +76,8 @@ pub(super) fn connect<'m>(
 /// A lane whose channel has fewer doublings than another of its round does not do the last of them.
 fn rests<'m>(parts: &Parts<'_, 'm>, control: &Control<'m>, lane: usize) -> Option<Signal<'m>> {
     let most = most_doublings(parts.plan);
-    let spare = channels(parts.plan, lane).map(|(round, channel)| (round, most[round] - doublings(parts.plan, channel)));
+    let spare = channels(parts.plan, lane)
+        .map(|(round, channel)| (round, most[round] - doublings(parts.plan, channel)));
     let over = |(round, spare): (usize, u32)| {
         let few = control.count.le(u128::from(spare));
         if most.len() == 1 { few } else { few & control.number.eq(round as u128) }
@@ -118,7 +119,7 @@ fn row<'m>(
     let is = |mode: Mode| word.is_mode(mode);
     let of_vertices = is(Mode::Vertex) | is(Mode::Upper) | is(Mode::Lower);
     let with_pass = m.cat(&[row.slice(ROW_BITS - 1, 1), pass]);
-    let named = is(Mode::Digits)
-        .mux(low(digit), is(Mode::Edge).mux(low(edge), is(Mode::Pass).mux(with_pass, row)));
+    let named =
+        is(Mode::Digits).mux(low(digit), is(Mode::Edge).mux(low(edge), is(Mode::Pass).mux(with_pass, row)));
     of_vertices.mux(of_vertex, named).named(&format!("row{lane}"))
 }
