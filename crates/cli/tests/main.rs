@@ -16,6 +16,7 @@ mod gallery;
 mod guard_band;
 mod input_files;
 mod inputs;
+mod judge;
 mod layering;
 mod lens;
 mod light;
