@@ -24,9 +24,9 @@ fn sequenced_setup_equals_its_model() {
         ("channels.extra", "3"),
         ("channels.e0_kind", "floor"),
         ("channels.e1_kind", "signed"),
-        ("channels.e1_vertex_fraction", "0"),
+        ("channels.e1_vertex", "0"),
         ("blend.kind", "constant"),
-        ("machine.tag_bits", "5"),
+        ("memory.tag_bits", "5"),
     ];
     let small = [
         ("screen.width", "20"),
@@ -52,4 +52,31 @@ fn sequenced_setup_equals_its_model() {
     }
     println!("{machines} machines, {} tokens, {} values of ports compared", all.tokens, all.compared);
     assert!(machines == 12 && all.tokens > 300);
+}
+
+/// The whole machine, its units compared inside, with stalls at the word port and behind, and resets in the midst of a triangle.
+#[test]
+fn sequenced_machine_equals_its_model() {
+    let screen = [
+        ("screen.width", "20"),
+        ("screen.height", "20"),
+        ("screen.guard_bits", "5"),
+        ("memory.tag_bits", "5"),
+    ];
+    let mut rng = Pcg64Mcg::seed_from_u64(32);
+    let mut all = Checked::default();
+    for lanes in [1, 2, 4] {
+        let plan = machine(&screen, lanes);
+        let mut case =
+            Case { seed: 6, disturbed: 10, resets: vec![700, 701, 5000], ..Case::new(&plan, Unit::MACHINE) };
+        case.tokens = random_tokens(&plan, Unit::MACHINE, 30, &mut rng);
+        case.unwilling = ["in", "rd", "data", "wr"].map(|link| (link.to_owned(), 90)).into_iter().collect();
+        all.merge(&checked(&case));
+    }
+    println!("{} triangles, {} cycles, {} values of ports compared", all.tokens, all.cycles, all.compared);
+    assert!(
+        all.tokens == 3 * 30 && all.moved["in"] > 18 * all.tokens && all.moved["wr"] > 300,
+        "{:?}",
+        all.moved
+    );
 }
