@@ -9,7 +9,7 @@ use edgewalk_model::setup::Setup;
 use edgewalk_model::tokens::{EdgeWalk, Prim, sign_extend};
 use edgewalk_model::{Culled, Events, SetupClocks, longest_setup, setup_clocks};
 use lane::{Lane, Pair, over_bits, s, u};
-use rand::{Rng, SeedableRng, rngs::StdRng};
+use rand::{SeedableRng, rngs::StdRng};
 use std::array::from_fn;
 
 /// What all lanes of a round took, as they do the same steps.
