@@ -26,7 +26,7 @@ fn sequenced_setup_equals_its_model() {
         ("channels.e1_kind", "signed"),
         ("channels.e1_vertex_fraction", "0"),
         ("blend.kind", "constant"),
-        ("machine.tag_bits", "5"),
+        ("memory.tag_bits", "5"),
     ];
     let small = [("screen.width", "20"), ("screen.height", "20"), ("screen.subpixel_bits", "0"), ("screen.guard_bits", "5")];
     let map = [("shadow.light", "parallel"), ("shadow.own_pass", "yes"), ("shadow.size", "40")];
