@@ -24,7 +24,7 @@ fn sequenced_setup_equals_its_model() {
         ("channels.extra", "3"),
         ("channels.e0_kind", "floor"),
         ("channels.e1_kind", "signed"),
-        ("channels.e1_vertex_fraction", "0"),
+        ("channels.e1_vertex", "0"),
         ("blend.kind", "constant"),
         ("memory.tag_bits", "5"),
     ];
