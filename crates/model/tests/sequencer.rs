@@ -83,7 +83,7 @@ fn campaign(count: usize) {
     for lanes in [1, 2, 4] {
         let mut rng = StdRng::seed_from_u64(lanes.into());
         let lanes_key = lanes.to_string();
-        let settings = [("edge.fill", "exact"), ("edge.kind", "exact"), ("setup.lanes", lanes_key.as_str())];
+        let settings = [("setup.kind", "parallel"), ("edge.fill", "exact"), ("edge.kind", "exact"), ("setup.lanes", lanes_key.as_str())];
         let share = count / 6;
         let mut own = Seen::default();
         own.check(&Machine { lanes, ..Machine::default() }.plan().expect("can be built"), share, &mut rng);
