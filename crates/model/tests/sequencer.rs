@@ -4,11 +4,11 @@
 use crate::common::{Triangle, any_triangle, random_machine};
 use edgewalk_machine::sequencer::Program;
 use edgewalk_machine::sequencer::word::{Base, Control, Only, Sign, Word};
-use edgewalk_machine::{MAX_CHANNELS, Machine, Plan};
+use edgewalk_machine::{MAX_CHANNELS, Machine, Plan, SetupKind};
 use edgewalk_model::setup::Setup;
 use edgewalk_model::setup::sequencer::SlowSetup;
 use edgewalk_model::tokens::{EdgeWalk, Prim};
-use edgewalk_model::{Culled, Events};
+use edgewalk_model::{Culled, Events, longest_setup, setup_clocks};
 use rand::{Rng, SeedableRng, rngs::StdRng};
 
 /// What the formulae give, and why the triangle is culled: an edge that is not walked has M = 0 in a sequenced SETUP.
@@ -42,12 +42,19 @@ struct Seen {
 impl Seen {
     fn check(&mut self, plan: &Plan, count: usize, rng: &mut StdRng) {
         let slow = SlowSetup::new(plan);
+        let sequenced =
+            plan.with(|m| m.setup_kind = SetupKind::Sequenced).plan().expect("exact fill and edges");
         for _ in 0..count {
             let triangle = any_triangle(plan, rng);
             let light_pass = plan.shadow.draws_map() && rng.random_bool(0.5);
             let (prim, culled) = by_formulae(plan, &triangle, light_pass);
             let ran = slow.run::<MAX_CHANNELS>(&triangle, light_pass).expect("the program ends");
             let context = || format!("{triangle:?} on {plan:?}");
+            if !light_pass {
+                // Counted without running the program, as the machine's model does.
+                assert_eq!(setup_clocks(&sequenced, &triangle).phase1, ran.clocks, "S of {}", context());
+                assert!(ran.clocks <= longest_setup(&sequenced).all(), "the longest: {}", context());
+            }
             assert_eq!(ran.early, 0, "rows and checks are waited for: {}", context());
             let causes = [Culled::Lines, Culled::Columns, Culled::Area];
             assert_eq!(causes.map(|cause| u64::from(ran.culled == Some(cause))), culled, "{}", context());

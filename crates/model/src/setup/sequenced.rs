@@ -98,7 +98,7 @@ impl Listing {
 impl ProgramClocks {
     pub(super) fn new(plan: &Plan) -> ProgramClocks {
         let listing = Listing(Program::of(plan));
-        let label = |name| listing.label(name);
+        let label = |name: &str| listing.label(name);
         let at = |name| listing.label(name) as u16;
         let lanes = plan.lanes as usize;
         let beside = edges_are_beside(plan);
