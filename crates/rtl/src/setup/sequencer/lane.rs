@@ -109,7 +109,7 @@ pub(super) fn lane(name: &str, shape: &Shape) -> Result<Arc<Netlist>, BuildError
     let done = (steps & !kept).named("done");
     a.when(done, next_a);
     w.when(done, next_w);
-    let before = m.reg("before", 1).doc("A was below 0 before this clock").set(negative);
+    let before = m.reg("was_negative", 1).doc("A was below 0 before this clock").set(negative);
     m.output_doc("is_negative", negative, "A < 0");
     m.output_doc("stays", before.q().eq(negative), "the step before left the sign of A");
     m.output_doc("rest", a.q(), "A");

@@ -40,7 +40,7 @@ pub(super) fn connect<'m>(
     let write_w = twice("write_w", get("write_w") & *runs);
     let raised = later("step_raised", get("raised"));
     let number = later("step_number", control.number);
-    let steps_later = later("steps", steps);
+    let steps_later = later("does_step", steps);
     let pass = light_pass.number(m, 1, 0, 1);
     for (lane, instance) in parts.lanes.iter().enumerate() {
         instance.connect("read_row", row(parts, control, digits, lane, pass));
@@ -53,7 +53,7 @@ pub(super) fn connect<'m>(
             instance.connect(name, signal);
         }
         let rests = rests(parts, control, lane);
-        let own = rests.map(|rests| later(&format!("steps{lane}"), steps & !rests));
+        let own = rests.map(|rests| later(&format!("does_step{lane}"), steps & !rests));
         instance.connect("steps", own.unwrap_or(steps_later));
         let mut raises: Vec<u32> = Vec::new();
         for (_, channel) in channels(parts.plan, lane) {
