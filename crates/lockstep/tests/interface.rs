@@ -96,7 +96,7 @@ fn triangles_pass_the_port_and_come_back() {
     let mut checked = 0;
     for _ in 0..1000 {
         let plan = random_machine(&mut rng);
-        let triangle = common::triangles::random_triangle(&plan, &mut rng);
+        let triangle = common::triangles::random_primitive(&plan, &mut rng);
         let tag = rng.random::<u32>().checked_shr(32 - plan.tag_bits).unwrap_or(0);
         let port = Triangles::new(&plan);
         // A triangle has one k_t, its first vertex's.

@@ -10,7 +10,7 @@ use crate::setup::edges::{Parts, Screen};
 use crate::setup::sort::{Corner, Sorted};
 use crate::setup::{self, SetupClocks};
 use crate::tokens::{EdgeWalk, FEW, Prim, Source, per_channel, sign_extend, word_masks};
-use edgewalk_machine::{EdgeKind, Fill, Plan, PortVertex};
+use edgewalk_machine::{EdgeKind, Fill, Plan, PortVertex, Role};
 use std::array::from_fn;
 
 type Words = crate::tokens::Words<FEW>;
@@ -152,6 +152,8 @@ impl Setup {
         *prim = Prim {
             line: line as u32,
             lines: parts.lines,
+            thin: false, // no lines here
+            flat: false,
             major_right,
             major,
             minor,
@@ -188,7 +190,8 @@ impl Setup {
             values: from_fn(|i| vertex.values()[i] & self.vertex_masks[i]),
         };
         let [top, middle, bottom] = order;
-        Sorted { corners: [corner(&vertices[top]), corner(&vertices[middle]), corner(&vertices[bottom])] }
+        let corners = [corner(&vertices[top]), corner(&vertices[middle]), corner(&vertices[bottom])];
+        Sorted { corners, role: Role::Triangle } // no lines here
     }
 
     /// k0 and k1: the first column that may have a pixel, and the first behind the last.
