@@ -110,9 +110,8 @@ fn screen(machine: &Machine) -> Result<(), MachineError> {
 
 /// Lines want half a pixel, a rule that counts centres, and nobody who walks down only.
 fn lines(machine: &Machine) -> Result<(), MachineError> {
-    let refusal = |reason: &str| {
-        Err(MachineError::rule(machine, "polygon.lines", reason.to_owned(), "no".to_owned()))
-    };
+    let refusal =
+        |reason: &str| Err(MachineError::rule(machine, "polygon.lines", reason.to_owned(), "no".to_owned()));
     if !machine.polygon.has_lines() {
         Ok(())
     } else if machine.fill == Fill::Textbook {

@@ -1,7 +1,6 @@
 //! Polygons and lines: their keys.
 
 use crate::key::{Domain, Key, word};
-use crate::machine::Machine;
 
 /// Whether the port takes lines.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]

@@ -30,6 +30,11 @@ impl PortVertex {
         self.y
     }
 
+    /// The same at another place.
+    pub(crate) fn at(self, x: i32, y: i32) -> PortVertex {
+        PortVertex { x, y, ..self }
+    }
+
     /// The channels' values in their order, `e` fraction bits below the output's LSB; behind the last channel
     /// 0.
     #[must_use]

@@ -231,6 +231,14 @@ tokens! {
     }
 }
 
+impl<const C: usize> Prim<C> {
+    /// Its spans run to the left.
+    #[inline(always)]
+    pub(crate) fn runs_left(&self, textbook: bool) -> bool {
+        self.major_right && !textbook && !self.thin
+    }
+}
+
 /// The modulus of a slope edge is the constant 2^F, and no field.
 fn with_slope_modulus<const C: usize>(plan: &Plan) -> Prim<C> {
     let m = if plan.edge_kind == EdgeKind::Slope { 1 << plan.edge_fraction } else { 0 };

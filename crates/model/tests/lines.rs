@@ -117,7 +117,8 @@ fn end(plan: &Plan, near: &End, random: &mut Pcg64) -> End {
 fn random_lines(plan: &Plan, count: usize, random: &mut Pcg64) -> Vec<[End; 2]> {
     let unit = 1i64 << plan.subpixel_bits;
     let one = |_| {
-        let near = [plan.width, plan.height].map(|side| random.random_range(-2 * unit..(i64::from(side) + 2) * unit));
+        let near = [plan.width, plan.height]
+            .map(|side| random.random_range(-2 * unit..(i64::from(side) + 2) * unit));
         let a = end(plan, &(near, Vec::new()), random);
         let b = end(plan, &a, random);
         [a, b]

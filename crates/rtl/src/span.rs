@@ -9,7 +9,7 @@ use edgewalk_netlist::{BuildErrors, Module, Netlist, Signal};
 use crate::fifo::fifo;
 use crate::light_pass::LightPass;
 use crate::ports::Interface;
-use crate::wires::{Registers, Token, parts};
+use crate::wires::{Registers, Token, moved, parts};
 
 const DOC: &str = "SPAN cuts a line to the screen and queues what is left of it.
 
@@ -69,22 +69,15 @@ pub fn span(plan: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
     .map(|(name, doc, end)| m.reg(&format!("held_{name}"), 1).doc(doc).when(line_ready, end).q());
     let empty = (crossed | outside).named_doc("empty", "no column of it is on the screen");
     let leftward = match plan.fill {
-        Fill::Exact => m
-            .reg("held_leftward", 1)
-            .doc("drawn from its last column")
-            .when(line_ready, ends.leftward)
-            .q(),
+        Fill::Exact => {
+            m.reg("held_leftward", 1).doc("drawn from its last column").when(line_ready, ends.leftward).q()
+        }
         Fill::Textbook => m.lit(1, 0),
     };
-    let pixel = thin.map(|thin| {
-        let kept = |name: &str, doc: &str, value: Signal<'m>| {
-            m.reg(name, value.width()).doc(doc).when(line_ready, value).q()
-        };
-        HeldPixel {
-            thin: kept("held_thin", "a pixel of a line", thin.thin),
-            flat: kept("held_flat", "of a line with x and y exchanged", thin.flat),
-            y: kept("held_y", "its line", line["y"]),
-        }
+    let pixel = thin.map(|thin| HeldPixel {
+        thin: moved(&m, line_ready, "held_thin", "a pixel of a line", thin.thin),
+        flat: moved(&m, line_ready, "held_flat", "of a line with x and y exchanged", thin.flat),
+        y: moved(&m, line_ready, "held_y", "its line", line["y"]),
     });
 
     m.comment("Flags of dropped lines wait for the next span.");
@@ -140,12 +133,7 @@ struct Ends<'m> {
 }
 
 /// Half-open spans from the major edge inwards, to the right or to the left.
-fn ends_exact<'m>(
-    m: &'m Module,
-    width: Signal<'m>,
-    line: &Token<'m>,
-    thin: Option<Thin<'m>>,
-) -> Ends<'m> {
+fn ends_exact<'m>(m: &'m Module, width: Signal<'m>, line: &Token<'m>, thin: Option<Thin<'m>>) -> Ends<'m> {
     let (cmaj, cmin) = (line["cmaj"], line["cmin"]);
     m.comment("To the right from cmaj to before cmin, at most to the end of the screen; to the left to cmin, at least to column 0.");
     let right_of_screen =
@@ -159,7 +147,8 @@ fn ends_exact<'m>(
     let outside_right = (beyond(cmaj, width) | left_of_screen).named("outside_right");
     let outside_left = (before(cmaj) | right_of_screen).named("outside_left");
     let leftward = thin.map_or(line["major_right"], |thin| line["major_right"] & !thin.thin);
-    let (first, end) = (leftward.mux(left_of_screen.mux(0, cmin), cmaj).named("first"), leftward.mux(cmaj, cmin));
+    let (first, end) =
+        (leftward.mux(left_of_screen.mux(0, cmin), cmaj).named("first"), leftward.mux(cmaj, cmin));
     let beyond = (!leftward & right_of_screen).named("beyond");
     let crossed = leftward.mux(ordered | cmaj.eq(cmin), !ordered).named("crossed");
     let outside = leftward.mux(outside_left, outside_right).named("outside");
@@ -222,5 +211,12 @@ fn ends_textbook<'m>(m: &'m Module, width: Signal<'m>, line: &Token<'m>) -> Ends
     let first = (major_right.mux(cmin, cmaj) - 1).named("first");
     let on_screen = xe.slt(width).named_doc("on_screen", "the span ends on the screen");
     let crossed = on_screen.mux(xe, width).sle(first).named("crossed");
-    Ends { first, end: xe, beyond: !on_screen, crossed, outside: xe.sle(0).named("outside"), leftward: major_right }
+    Ends {
+        first,
+        end: xe,
+        beyond: !on_screen,
+        crossed,
+        outside: xe.sle(0).named("outside"),
+        leftward: major_right,
+    }
 }

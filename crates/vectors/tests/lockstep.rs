@@ -74,7 +74,8 @@ fn every_suite_of_lines() {
                 let runs = Runs::new(machine, &suite, DrawState { light_pass, ..suite.state });
                 for unit in Unit::all(machine) {
                     let trace = runs.capture(unit, StallKind::ALL[(i + j) % 3]);
-                    let agreement = natives.lockstep(&trace).unwrap_or_else(|error| panic!("{name}: {error}"));
+                    let agreement =
+                        natives.lockstep(&trace).unwrap_or_else(|error| panic!("{name}: {error}"));
                     assert_eq!(agreement.compared, trace.port_values());
                     compared += agreement.compared;
                     met.merge(&trace.events);

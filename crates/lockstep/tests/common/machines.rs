@@ -3,8 +3,8 @@
 use edgewalk_machine::key::Domain;
 use edgewalk_machine::keys::KEYS;
 use edgewalk_machine::{
-    BlendKind, Fill, Lines, MAX_CHANNELS, Machine, Plan, Precision, ShadeColour, ShadeLight, ShadowLight, Texture,
-    Transmits,
+    BlendKind, Fill, Lines, MAX_CHANNELS, Machine, Plan, Precision, ShadeColour, ShadeLight, ShadowLight,
+    Texture, Transmits,
 };
 use rand::Rng;
 use rand::seq::IndexedRandom;

@@ -8,7 +8,7 @@
 //! stalls, bit by bit and cycle by cycle. Where that cannot be said without ticking, [`Renderer`] says why, and [`draw`]
 //! ticks.
 //!
-//! Not modelled: [`Events`], memories that stall, channels of the user's own, lines, BLEND, TERM and SHADE.
+//! Not modelled: [`Events`], memories that stall, channels of the user's own, BLEND, TERM and SHADE.
 
 mod divide;
 mod setup;
@@ -50,8 +50,6 @@ pub enum Reason {
     Blend,
     /// The machine shades at each pixel.
     Shade,
-    /// The machine takes lines.
-    Lines,
     /// The rules change between triangles.
     Passes,
     /// The in-flight queue is so short that it fills: `fifo.inflight` <= `memory.latency` / T.
@@ -100,7 +98,6 @@ impl fmt::Display for Path {
             Path::Ticked(Reason::Shadow) => "ticked: the machine has SHADOW",
             Path::Ticked(Reason::Blend) => "ticked: the machine has BLEND",
             Path::Ticked(Reason::Shade) => "ticked: the machine has TERM and SHADE",
-            Path::Ticked(Reason::Lines) => "ticked: the machine takes lines",
             Path::Ticked(Reason::Passes) => "ticked: the rules change between triangles",
             Path::Ticked(Reason::Queue) => "ticked: the in-flight queue may fill",
             Path::Ticked(Reason::Memory) => "ticked: the memory makes the machine wait",
@@ -246,9 +243,6 @@ fn refused(plan: &Plan) -> Option<Reason> {
     }
     if plan.shade.is_there() {
         return Some(Reason::Shade);
-    }
-    if plan.polygon.has_lines() {
-        return Some(Reason::Lines);
     }
     if plan.channels().len() > FEW {
         return Some(Reason::Channels);

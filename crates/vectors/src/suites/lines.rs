@@ -19,12 +19,21 @@ pub(super) fn cases(machine: &Plan) -> Vec<Case> {
     });
     vec![
         case("sixteen_directions", fan),
-        case("on_centres", all(&[((1.5, 2.5), (8.5, 2.5)), ((2.5, 1.5), (2.5, 8.5)), ((1.5, 1.5), (7.5, 7.5))])),
-        case("between_two_pixels", all(&[((1.0, 3.0), (8.0, 3.0)), ((3.0, 1.0), (3.0, 8.0)), ((1.5, 2.5), (9.5, 6.5))])),
+        case(
+            "on_centres",
+            all(&[((1.5, 2.5), (8.5, 2.5)), ((2.5, 1.5), (2.5, 8.5)), ((1.5, 1.5), (7.5, 7.5))]),
+        ),
+        case(
+            "between_two_pixels",
+            all(&[((1.0, 3.0), (8.0, 3.0)), ((3.0, 1.0), (3.0, 8.0)), ((1.5, 2.5), (9.5, 6.5))]),
+        ),
         case("within_a_pixel", all(&[((3.25, 4.5), (3.75, 4.5)), ((3.5, 4.25), (3.5, 4.75))])),
         case("without_a_pixel", all(&[((3.75, 4.5), (4.25, 4.5)), ((4.5, 4.5), (4.5, 4.5))])),
         case("over_the_sides", all(&[((-3.0, 4.25), (w + 3.0, 5.75)), ((4.25, -3.0), (5.75, h + 3.0))])),
-        case("over_the_corners", all(&[((-4.0, 3.0), (3.0, -4.0)), ((w - 3.0, h + 4.0), (w + 4.0, h - 3.0))])),
+        case(
+            "over_the_corners",
+            all(&[((-4.0, 3.0), (3.0, -4.0)), ((w - 3.0, h + 4.0), (w + 4.0, h - 3.0))]),
+        ),
         case(
             "beside_the_screen",
             all(&[
@@ -34,7 +43,10 @@ pub(super) fn cases(machine: &Plan) -> Vec<Case> {
                 ((w + 2.0, 1.0), (w + 1.5, 9.0)),
             ]),
         ),
-        case("first_column_behind_all_vertices", all(&[((-3.0, 0.5), (0.4, 9.5)), ((0.5, -3.0), (9.5, 0.4))])),
+        case(
+            "first_column_behind_all_vertices",
+            all(&[((-3.0, 0.5), (0.4, 9.5)), ((0.5, -3.0), (9.5, 0.4))]),
+        ),
         case(
             "a_path_without_a_gap",
             [(1.0, 1.0), (7.0, 3.0), (9.0, 8.0), (2.0, 7.0)]

@@ -1,7 +1,7 @@
 //! Draws cases in pixels and in shares of full scale; what a machine cannot hold is moved to the nearest it can.
 
 use super::{Case, Triangle};
-use edgewalk_machine::{LIGHT_SPACE, Plan, PortVertex, Role};
+use edgewalk_machine::{LIGHT_SPACE, Plan, PortVertex};
 
 /// Red, green and blue of the three corners, so that every channel varies in both directions.
 const COLORS: [[f64; 3]; 3] = [[1.0, 0.1, 0.3], [0.2, 0.9, 0.0], [0.0, 0.4, 1.0]];
@@ -118,17 +118,7 @@ impl<'a> Pen<'a> {
             let [r, g, b] = COLORS[i];
             self.vertex(ends[i], [z[i], r, g, b])
         });
-        let flat = (b.x() - a.x()).abs() >= (b.y() - a.y()).abs();
-        let place = |v: &PortVertex| if flat { (v.y(), v.x()) } else { (v.x(), v.y()) };
-        let (a, b) = if place(&a).1 <= place(&b).1 { (a, b) } else { (b, a) };
-        let one = 1 << self.machine.subpixel_bits;
-        let at = |v: &PortVertex, right: i32| {
-            let (across, along) = place(v);
-            let values = &v.values()[..self.machine.channels().len()];
-            let values = values.iter().copied().chain([v.kt().into()]).collect::<Vec<_>>();
-            self.machine.raw_vertex(across - one / 2 + right, along, &values)
-        };
-        self.machine.with_role([at(&a, 0), at(&a, one), at(&b, 0)], Role::Line { flat })
+        self.machine.line([a, b])
     }
 
     /// A triangle that in exact fill covers the pixel (column, line) alone, on any sub-pixel grid.

@@ -4,8 +4,8 @@
 use edgewalk_lockstep::{Agreement, Interface, LockstepError, NetlistDevice, PortError};
 use edgewalk_machine::units;
 use edgewalk_machine::{
-    Blend, BlendKind, Bump, EdgeKind, Fill, Gate, Hazard, Kind, Lines, Machine, OwnPass, Plan, Precision, Project,
-    Shade, ShadeColour, ShadeKind, ShadeLight, Shadow, ShadowLight, Texture, Transmits, Walk,
+    Blend, BlendKind, Bump, EdgeKind, Fill, Gate, Hazard, Kind, Lines, Machine, OwnPass, Plan, Precision,
+    Project, Shade, ShadeColour, ShadeKind, ShadeLight, Shadow, ShadowLight, Texture, Transmits, Walk,
 };
 use edgewalk_netlist::Netlist;
 use edgewalk_vectors::{Files, Trace, Unit};
