@@ -20,6 +20,7 @@ mod layering;
 mod lens;
 mod light;
 mod limits;
+mod lines;
 mod meshes;
 mod mix;
 mod names;

@@ -107,7 +107,7 @@ fn whole_machines(count: usize) {
         "{count} machines, {extra:?} with 0 to 4 extra channels, {signed} of them signed; {maps} draw their map"
     );
     report(&all);
-    assert!(extra.iter().all(|machines| machines * 20 >= count) && signed > count && maps * 20 > count);
+    assert!(extra.iter().all(|machines| machines * 30 >= count) && signed > count && maps * 20 > count);
     let missing: Vec<_> = all
         .events
         .missing()

@@ -67,10 +67,12 @@ fn held_to_rule(plan: &Plan, lines: &[[End; 2]]) -> usize {
         assert_eq!(at, *pixel, "line {id} {:?}", lines[id]);
         let [a, b] = &lines[id];
         for ((channel, output), (from, to)) in plan.channels().iter().zip(outputs).zip(a.1.iter().zip(&b.1)) {
-            // Twice the value times the length, 2^-e LSB; start and d are rounded once each, and d is added for each line.
+            // Start and d are rounded once each, and d is added for each line.
             let value = *from as f64 + (to - from) as f64 * *way as f64 / *length as f64;
             let value = value / f64::from(1u32 << channel.vertex_fraction);
-            let lines = (*way as f64 / f64::from(1u32 << plan.subpixel_bits)).abs() + 2.0;
+            // From the end that comes first.
+            let walked = if *length < 0 { way - length } else { *way };
+            let lines = (walked as f64 / f64::from(1u32 << plan.subpixel_bits)).abs() + 2.0;
             let bound = 0.5 + lines / 2.0 / f64::from(1u32 << channel.fraction) + 1e-9;
             let error = (output as f64 - value).abs();
             assert!(error <= bound, "line {id} {:?}, {}: {output} for {value}", [a.0, b.0], channel.name);
