@@ -37,6 +37,7 @@ pub mod plan;
 pub mod role;
 pub mod record;
 pub mod vertex;
+pub mod sequencer;
 pub mod draw;
 pub mod activity;
 pub mod field;
