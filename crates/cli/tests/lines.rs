@@ -124,9 +124,9 @@ fn lines_go_through_the_other_commands() {
     for arguments in [
         &["verify", "a.tri", "--no-simulators"][..],
         &["vectors", "a.tri", "--out", "v"],
-        &["explain", "a.tri", "--pixel", "24,5"],
-        &["explain", "a.tri", "--pixel", "20,20"],
-        &["replay", "a.tri", "--out", "r"],
+        &["explain", "a.tri", "24", "18"],
+        &["explain", "a.tri", "4", "20"],
+        &["replay", "a.tri", "--out", "r.html"],
         &["trace", "a.tri", "--out", "t.vcd"],
         &["triangles", "a.tri", "--out", "b.tri"],
     ] {
