@@ -95,7 +95,7 @@ fn shares(machines: &[Plan]) -> Vec<u64> {
 
 /// So many machines.
 fn whole_machines(count: usize) {
-    let mut rng = Pcg64Mcg::seed_from_u64(std::env::var("SEED_TRIAL").map_or(2, |s| s.parse().unwrap()));
+    let mut rng = Pcg64Mcg::seed_from_u64(3);
     let machines: Vec<Plan> = (0..count).map(|number| drawn_machine(number, &mut rng)).collect();
     let all = compared(&machines);
     let mut extra = [0; 5];
