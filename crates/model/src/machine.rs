@@ -26,7 +26,7 @@ use crate::pixel::Pixel;
 use crate::setup::Setup;
 pub use crate::shadow::ShadowInputs;
 use crate::span::Span;
-use crate::stage::{self, Stage};
+use crate::stage::{self, Made, Stage};
 use crate::term::{Term, Walked};
 use crate::tokens::{FEW, Fragment, Line, Write};
 use crate::word_memory::{Ask, MEMORIES, WordIn};
@@ -94,6 +94,8 @@ pub struct Model<const C: usize> {
     /// Spans to fragments.
     pub pixel: Pixel<C>,
     pipe: Vec<Stage<C>>,
+    /// Not hardware: room for what the stages make in a cycle, by place in the pipe.
+    made: Vec<Made<C>>,
     /// Fragments to writes.
     pub depth: Depth<C>,
     blend: Option<Blend<C>>,
@@ -111,13 +113,15 @@ impl<const C: usize> Model<C> {
     /// A machine after reset.
     #[must_use]
     pub fn new(plan: &Plan) -> Self {
+        let pipe = stage::pipe(plan);
         Model {
             setup: Setup::new(plan),
             edge: Edge::new(plan),
             span: Span::new(plan),
             term: plan.shade.is_there().then(|| Term::new(plan)),
             pixel: Pixel::new(plan),
-            pipe: stage::pipe(plan),
+            made: vec![Made::default(); pipe.len()],
+            pipe,
             depth: Depth::new(plan),
             blend: plan.blend.is_there().then(|| Blend::new(plan)),
             counters: Counters::default(),
@@ -149,6 +153,11 @@ impl<const C: usize> Model<C> {
     #[must_use]
     pub fn pipe(&self) -> &[Stage<C>] {
         if C > FEW { &self.pipe } else { &[] }
+    }
+
+    /// Room for what the stages make.
+    fn nothing_made(&self) -> Vec<Made<C>> {
+        vec![Made::default(); self.pipe.len()]
     }
 
     /// Fragments that passed to colours, if the machine has it.
@@ -226,8 +235,9 @@ impl<const C: usize> Model<C> {
 
     #[inline(always)]
     fn cycle_of_all(&mut self, inputs: &Inputs, tell: impl FnOnce(&Line<C>)) -> Outputs<C> {
-        let wires = self.wires(inputs);
-        let outputs = self.outputs(inputs, &wires);
+        let mut made = if C > FEW { std::mem::take(&mut self.made) } else { Vec::new() };
+        let wires = self.wires(inputs, &mut made);
+        let outputs = self.outputs(inputs, &wires, &made);
         self.count(inputs, &outputs);
         let light_pass = C > FEW && inputs.shadow.light_pass;
         // From the back on, so that each unit sees the one before as it was.
@@ -236,9 +246,12 @@ impl<const C: usize> Model<C> {
         {
             blend.step(self.depth.pass(), &inputs.blend, &mut self.events);
         }
-        self.step_depth(inputs, &wires);
+        self.step_depth(inputs, &wires, &made);
         for place in (0..self.pipe().len()).rev() {
-            self.step_stage(&wires, place, inputs);
+            self.step_stage(&wires, &made, place, inputs);
+        }
+        if C > FEW {
+            self.made = made;
         }
         self.step_pixel(inputs, &wires, light_pass);
         self.step_lines(inputs, wires.span_ready(), light_pass, tell);
@@ -250,19 +263,19 @@ impl<const C: usize> Model<C> {
 
     /// The output ports.
     #[inline(always)]
-    fn outputs(&self, inputs: &Inputs, wires: &Wires<C>) -> Outputs<C> {
+    fn outputs(&self, inputs: &Inputs, wires: &Wires, made: &[Made<C>]) -> Outputs<C> {
         let (pipe, pass) = (self.pipe(), self.depth.pass());
         let mut words = [Ask::default(); MEMORIES];
         if let Some(term) = self.term() {
             words[0] = Ask { addr: term.read(self.edge.record()), take: term.tdata_ready() };
         }
         for (place, stage) in pipe.iter().enumerate() {
-            if let Some((memory, ask)) = stage.asks(&self.links(wires, place), inputs) {
+            if let Some((memory, ask)) = stage.asks(&self.links(wires, made, place), inputs) {
                 words[memory] = ask;
             }
         }
-        let seen = self.given(wires, pipe.len());
-        let activity = self.activity(wires);
+        let seen = self.given(made, pipe.len());
+        let activity = self.activity(wires, made);
         Outputs {
             tri_ready: self.setup.tri_ready(),
             rd: seen.filter(|_| wires.block.is_none()).map(|given| given.frag.addr),
@@ -300,18 +313,18 @@ impl<const C: usize> Model<C> {
     }
 
     #[inline(always)]
-    fn step_depth(&mut self, inputs: &Inputs, wires: &Wires<C>) {
+    fn step_depth(&mut self, inputs: &Inputs, wires: &Wires, made: &[Made<C>]) {
         let Model { pixel, pipe, depth, events, .. } = self;
         let seen = match pipe.last().filter(|_| C > FEW) {
             None => pixel.given(),
-            Some(stage) => stage.gives(wires.made(pipe.len() - 1)),
+            Some(stage) => stage.gives(&made[pipe.len() - 1]),
         };
         depth.step(seen.map(|given| given.frag), wires.block, &wires.depth_inputs(inputs), events);
     }
 
     /// PIXEL and TERM.
     #[inline(always)]
-    fn step_pixel(&mut self, inputs: &Inputs, wires: &Wires<C>, light_pass: bool) {
+    fn step_pixel(&mut self, inputs: &Inputs, wires: &Wires, light_pass: bool) {
         let Model { edge, span, term, pixel, counters, events, .. } = self;
         let (span, span_ready) = (span.span(), wires.span_ready());
         let walked = || term.as_ref().map_or_else(Walked::default, Term::walked);

@@ -51,6 +51,15 @@ pub struct Stage<const C: usize> {
     memory: Option<usize>,
 }
 
+/// What a unit makes in a cycle of its oldest fragment and of a word that its memory offers. It is no register: it counts in the
+/// cycle in which it was made.
+#[derive(Clone, Debug, Default)]
+pub struct Made<const C: usize> {
+    /// A fragment was made.
+    there: bool,
+    lit: Lit<C>,
+}
+
 /// The links of a stage in a cycle.
 #[derive(Clone, Copy, Debug)]
 pub struct Links<'a, const C: usize> {
@@ -95,25 +104,25 @@ impl<const C: usize> Stage<C> {
         self.memory.and_then(|memory| inputs.words.get(memory)).unwrap_or(&WordIn::NONE)
     }
 
-    /// The fragment that a unit makes of its oldest one and a word that its memory offers in this cycle. Other units hold what
-    /// they offer in a register.
+    /// Makes the fragment that the unit offers, if it is made of a word of its memory. Other units hold what they offer in a
+    /// register.
     #[inline]
-    pub(crate) fn made(&self, inputs: &Inputs) -> Option<Lit<C>> {
+    pub(crate) fn make(&self, inputs: &Inputs, made: &mut Made<C>) {
         match &self.unit {
-            Unit::Texel(unit) => unit.textured(self.port(inputs)),
+            Unit::Texel(unit) => made.there = unit.textured(self.port(inputs), &mut made.lit),
             Unit::Shadow(unit) => {
-                let shaded = unit.shaded(&inputs.shadow, self.port(inputs));
-                shaded.map(|frag| Given::alone(&frag).lit())
+                made.there = unit.shaded(&inputs.shadow, self.port(inputs), &mut made.lit.frag);
             }
-            _ => None,
+            _ => {}
         }
     }
 
-    /// The fragment offered on, by a register or as it was [made](Self::made).
+    /// The fragment offered on, by a register or as it was [made](Self::make).
     #[inline]
-    pub(crate) fn gives<'a>(&'a self, made: Option<&'a Lit<C>>) -> Option<Given<'a, C>> {
+    pub(crate) fn gives<'a>(&'a self, made: &'a Made<C>) -> Option<Given<'a, C>> {
         match &self.unit {
-            Unit::Texel(_) | Unit::Shadow(_) => made.map(Lit::given),
+            Unit::Texel(_) => made.there.then(|| made.lit.given()),
+            Unit::Shadow(_) => made.there.then(|| Given::alone(&made.lit.frag)),
             Unit::Bump(unit) => unit.bumped().map(Lit::given),
             Unit::Normal(unit) => unit.normed().map(Lit::given),
             Unit::Lamp(unit) => unit.normed().map(Lit::given),

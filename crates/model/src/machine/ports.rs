@@ -19,7 +19,8 @@ pub trait ShownUnits {
 impl<const C: usize> Model<C> {
     /// Shows the outputs of every unit in a cycle with these inputs, before the clock edge.
     pub fn show(&self, inputs: &Inputs, out: &mut impl ShownUnits) {
-        let (wires, pipe) = (self.wires(inputs), self.pipe());
+        let (mut made, pipe) = (self.nothing_made(), self.pipe());
+        let wires = self.wires(inputs, &mut made);
         let state = inputs.state();
         let held = Held { gradient: *self.edge.gradient(), kt: self.edge.kt(), record: self.edge.record() };
         let fresh_queued = self.span.fresh_queued();
@@ -35,9 +36,9 @@ impl<const C: usize> Model<C> {
         self.pixel
             .show(&Pins { next: wires.ready(0), held, state, ..Pins::default() }, &mut out.unit("pixel"));
         for (place, stage) in pipe.iter().enumerate() {
-            stage.show(&self.links(&wires, place), inputs, state, &mut out.unit(stage.name));
+            stage.show(&self.links(&wires, &made, place), inputs, state, &mut out.unit(stage.name));
         }
-        let token = self.given(&wires, pipe.len()).map(|given| given.frag);
+        let token = self.given(&made, pipe.len()).map(|given| given.frag);
         let word = WordIn { ready: inputs.rd_ready, word: inputs.data.map(u128::from) };
         let next = if self.blend().is_some() { wires.pass_ready } else { inputs.wr_ready };
         let pins = Pins { token, next, write: inputs.wr_ready, word, state, ..Pins::default() };

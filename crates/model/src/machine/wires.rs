@@ -8,8 +8,8 @@
 
 use super::{Inputs, Model};
 use crate::depth::{Block, DepthInputs};
-use crate::lit::{Given, Lit};
-use crate::stage::Links;
+use crate::lit::Given;
+use crate::stage::{Links, Made};
 use edgewalk_machine::Activity;
 
 /// Most stages of a pipe.
@@ -17,9 +17,7 @@ const STAGES: usize = 8;
 
 /// What is on the links.
 #[derive(Clone, Copy, Debug)]
-pub struct Wires<const C: usize> {
-    /// Fragments that stages make of words of their memories.
-    made: [Option<Lit<C>>; STAGES],
+pub struct Wires {
     /// By place in the pipe, and of DEPTH behind the last: the fragment offered there is taken.
     ready: [bool; STAGES + 1],
     /// What keeps the fragment offered to DEPTH from being read.
@@ -32,18 +30,12 @@ pub struct Wires<const C: usize> {
     pub pixel_ready: bool,
 }
 
-impl<const C: usize> Wires<C> {
+impl Wires {
     /// The fragment offered to the stage at this place, or behind the last stage to DEPTH, is taken.
     #[inline(always)]
     #[must_use]
     pub fn ready(&self, place: usize) -> bool {
         self.ready[place]
-    }
-
-    /// The fragment that the stage at this place makes of a word of its memory.
-    #[inline(always)]
-    pub(super) fn made(&self, place: usize) -> Option<&Lit<C>> {
-        self.made[place].as_ref()
     }
 
     /// PIXEL takes the span that is offered.
@@ -70,27 +62,26 @@ impl<const C: usize> Wires<C> {
 }
 
 impl<const C: usize> Model<C> {
-    /// The links in a cycle with these inputs, before the clock edge.
+    /// The links in a cycle with these inputs, before the clock edge. What stages make is put into `made`, by place in the pipe.
     #[inline(always)]
     #[must_use]
-    pub fn wires(&self, inputs: &Inputs) -> Wires<C> {
+    pub fn wires(&self, inputs: &Inputs, made: &mut [Made<C>]) -> Wires {
         let pipe = self.pipe();
         let mut wires = Wires {
-            made: [None; STAGES],
             ready: [false; STAGES + 1],
             block: None,
             pass_ready: self.blend().is_some_and(|blend| blend.pass_ready(self.depth.pass(), &inputs.blend)),
             there: self.term().is_none_or(|term| term.there(self.span.span())),
             pixel_ready: false,
         };
-        for (stage, made) in pipe.iter().zip(&mut wires.made) {
-            *made = stage.made(inputs);
+        for (stage, made) in pipe.iter().zip(made.iter_mut()) {
+            stage.make(inputs, made);
         }
-        let seen = self.given(&wires, pipe.len());
+        let seen = self.given(made, pipe.len());
         wires.block = self.depth.block(seen.map(|given| given.frag), inputs.depth_write);
         wires.ready[pipe.len()] = inputs.rd_ready && wires.block.is_none();
         for (place, stage) in pipe.iter().enumerate().rev() {
-            wires.ready[place] = stage.ready(self.given(&wires, place), wires.ready[place + 1], inputs);
+            wires.ready[place] = stage.ready(self.given(made, place), wires.ready[place + 1], inputs);
         }
         wires.pixel_ready = self.pixel.span_ready(wires.ready[0]);
         wires
@@ -99,42 +90,42 @@ impl<const C: usize> Model<C> {
     /// The fragment offered to the stage at this place, or behind the last stage to DEPTH.
     #[inline(always)]
     #[must_use]
-    pub fn given<'a>(&'a self, wires: &'a Wires<C>, place: usize) -> Option<Given<'a, C>> {
+    pub fn given<'a>(&'a self, made: &'a [Made<C>], place: usize) -> Option<Given<'a, C>> {
         match place.checked_sub(1) {
             None => self.pixel.given(),
-            Some(before) => self.pipe()[before].gives(wires.made(before)),
+            Some(before) => self.pipe()[before].gives(&made[before]),
         }
     }
 
     /// The links of the stage at this place.
     #[inline(always)]
     #[must_use]
-    pub fn links<'a>(&'a self, wires: &'a Wires<C>, place: usize) -> Links<'a, C> {
+    pub fn links<'a>(&'a self, wires: &Wires, made: &'a [Made<C>], place: usize) -> Links<'a, C> {
         Links {
-            from: self.given(wires, place),
-            gives: self.given(wires, place + 1).is_some(),
+            from: self.given(made, place),
+            gives: self.given(made, place + 1).is_some(),
             next: wires.ready[place + 1],
         }
     }
 
     /// Clock edge of the stage at this place; the stages before it have not stepped yet.
     #[inline(always)]
-    pub(super) fn step_stage(&mut self, wires: &Wires<C>, place: usize, inputs: &Inputs) {
+    pub(super) fn step_stage(&mut self, wires: &Wires, made: &[Made<C>], place: usize, inputs: &Inputs) {
         let Model { pixel, pipe, events, .. } = self;
         let (before, stages) = pipe.split_at_mut(place);
         let from = match before.last() {
             None => pixel.given(),
-            Some(stage) => stage.gives(wires.made(place - 1)),
+            Some(stage) => stage.gives(&made[place - 1]),
         };
-        let gives = stages[0].gives(wires.made(place)).is_some();
+        let gives = stages[0].gives(&made[place]).is_some();
         stages[0].step(&Links { from, gives, next: wires.ready[place + 1] }, inputs, events);
     }
 
     /// The cause of a cycle with these links, the first that holds.
     #[inline]
-    pub(super) fn activity(&self, wires: &Wires<C>) -> Activity {
+    pub(super) fn activity(&self, wires: &Wires, made: &[Made<C>]) -> Activity {
         if !self.pixel.advance(wires.ready[0]) {
-            self.stall(wires)
+            self.stall(wires, made)
         } else if self.pixel.active() {
             if self.pixel.on_screen() { Activity::Draw } else { Activity::Offscreen }
         } else if !wires.there && self.span.span().is_some() {
@@ -151,9 +142,9 @@ impl<const C: usize> Model<C> {
     }
 
     /// Why PIXEL's fragment is not taken.
-    fn stall(&self, wires: &Wires<C>) -> Activity {
+    fn stall(&self, wires: &Wires, made: &[Made<C>]) -> Activity {
         let stages = self.pipe().iter().enumerate();
-        let cause = stages.filter_map(|(place, stage)| stage.waits(&self.links(wires, place))).next();
+        let cause = stages.filter_map(|(place, stage)| stage.waits(&self.links(wires, made, place))).next();
         cause.unwrap_or(match wires.block {
             Some(Block::Hazard) => Activity::Hazard,
             Some(Block::Full) if self.depth.pass().is_some() && !wires.pass_ready => Activity::Blend,
