@@ -240,13 +240,16 @@ impl<const C: usize> Shadow<C> {
     }
 
     fn place(&self, fragment: &Fragment<C>, inputs: &ShadowInputs) -> Place {
-        let [tx, ty, d] = [0, 1, 2].map(|which| self.coordinate(fragment, which));
-        let inside = |t: i64| (0..self.size).contains(&t);
         if inputs.light_pass {
-            Place::Own
-        } else if !inputs.on {
-            Place::Off
-        } else if !inside(tx) || !inside(ty) {
+            return Place::Own;
+        }
+        if !inputs.on {
+            return Place::Off;
+        }
+        let (tx, ty, d) =
+            (self.coordinate(fragment, 0), self.coordinate(fragment, 1), self.coordinate(fragment, 2));
+        let inside = |t: i64| (0..self.size).contains(&t);
+        if !inside(tx) || !inside(ty) {
             Place::Outside
         } else if d < 0 {
             Place::Before

@@ -10,7 +10,7 @@ use crate::Events;
 use crate::bump::Bump;
 use crate::lamp::Lamp;
 use crate::lit::{Given, Lit};
-use crate::machine::Inputs;
+use crate::io::Inputs;
 use crate::normal::Normal;
 use crate::ports::{Pins, Ported, Shown};
 use crate::project::Project;
@@ -131,9 +131,10 @@ impl<const C: usize> Stage<C> {
         }
     }
 
-    /// The fragment offered to the unit can be taken. `next`: a fragment that the unit offers is taken.
+    /// The fragment offered to the unit can be taken.
     #[inline]
-    pub(crate) fn ready(&self, from: Option<Given<C>>, next: bool, inputs: &Inputs) -> bool {
+    pub(crate) fn ready(&self, links: &Links<C>, inputs: &Inputs) -> bool {
+        let Links { from, next, .. } = *links;
         match &self.unit {
             Unit::Texel(unit) => unit.frag_ready(self.port(inputs)),
             Unit::Bump(unit) => unit.frag_ready(next),

@@ -7,7 +7,7 @@ use super::pixel::Pixel;
 use super::setup::Setup;
 use super::span::{DepthTest, Ramp};
 use super::walk::{Spans, Walker};
-use super::{Reason, Refusal};
+use super::refusal::{Reason, Refusal};
 use crate::DrawState;
 use crate::counters::Counters;
 use crate::setup::SetupClocks;

@@ -9,7 +9,7 @@
 use super::clock::Clock;
 use super::setup::Setup;
 use super::walk::Span;
-use super::{Reason, Refusal, refused};
+use super::refusal::{Reason, Refusal, refused};
 use crate::counters::Counters;
 use crate::setup::SetupClocks;
 use crate::tokens::Prim;

@@ -1,6 +1,6 @@
 //! The same code for the vector instructions that this processor has.
 
-use super::Refusal;
+use super::refusal::Refusal;
 use super::frame::{self, Bring};
 use super::passage::Passage;
 use super::picture::Picture;
