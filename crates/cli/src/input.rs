@@ -26,8 +26,8 @@ pub struct Source {
     /// phong and fast-phong need a machine with that shade.kind, or --engine golden; wireframe needs --engine golden.
     #[arg(long, value_enum, default_value_t = Shading::Gouraud, hide_possible_values = true)]
     pub shading: Shading,
-    /// Sets the keys of the machine that the input asks for, as channels.extra, blend.kind, shadow.size or shade.kind; what
-    /// --set says stands
+    /// Set the keys of the machine that the input asks for, as channels.extra, blend.kind, shadow.size or
+    /// shade.kind; --set has the last word
     #[arg(long)]
     pub adapt: bool,
     /// What was read of a triangle file: a pipe can be read only once.

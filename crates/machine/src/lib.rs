@@ -35,6 +35,7 @@ mod stamp;
 pub mod plan;
 pub mod record;
 pub mod vertex;
+pub mod sequencer;
 pub mod draw;
 pub mod activity;
 pub mod field;

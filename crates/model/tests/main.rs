@@ -16,6 +16,7 @@ mod passage;
 mod perspective;
 mod project;
 mod reset;
+mod sequencer;
 mod shade;
 mod shadow;
 mod slope;

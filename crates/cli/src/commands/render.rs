@@ -23,11 +23,11 @@ use edgewalk_machine::Plan;
 use edgewalk_model::Waits;
 use std::path::PathBuf;
 
-/// Renders a scene or mesh through the machine and compares it with the golden picture.
+/// Draw a scene or mesh by the machine and compare it with the golden picture.
 ///
-/// With --engine golden it is drawn by a shading system in f64 and compared with the shading equation at each pixel:
-/// image.png, truth.png and shading_error.png, a heat map whose yellow is the largest error. For fast-phong also beside
-/// Phong shading: phong.png and phong_error.png. A wireframe is image.png alone.
+/// With --engine golden a shading system in f64 draws, and the shading equation at each pixel is the reference.
+/// Pictures: image.png, truth.png and shading_error.png, a heat map with the largest error in yellow. With
+/// fast-phong also phong.png and phong_error.png, beside Phong shading. A wireframe is image.png alone.
 #[derive(clap::Args)]
 #[command(after_help = "Examples:
   edgewalk render torus-knot
@@ -43,19 +43,19 @@ use std::path::PathBuf;
 pub struct Args {
     #[command(flatten)]
     source: Source,
-    /// Who draws the picture that is compared with the golden one
+    /// Engine that draws the picture
     #[arg(long, value_enum, default_value_t = Engine::Fast)]
     engine: Engine,
     #[command(flatten)]
     fast_phong: FastPhongArgs,
-    /// What lies in shadow; with another engine than golden `map`, for a machine with shadow.light = perspective and BLEND: a
-    /// pass for each light, whose map the machine draws
+    /// Method of shadows; engines other than golden take `map` alone. They need shadow.light = perspective and
+    /// BLEND, and draw a pass and a map for each light
     #[arg(long, value_enum, default_value_t = Shadows::Off)]
     shadows: Shadows,
-    /// With --shading wireframe: also draws the lines that surfaces hide
+    /// With --shading wireframe: also draw the lines that surfaces hide
     #[arg(long)]
     hidden_lines: bool,
-    /// How the memory makes the machine wait: none, fixed, random, dram, with parameters as fixed:rd=2,data=4,wr=1,
+    /// Stalls of the memory: none, fixed, random, dram, with parameters as fixed:rd=2,data=4,wr=1,
     /// random:seed=1,rd=64,data=64,wr=64 (256ths), dram:banks=4,page=256,miss=6,turn=2,refresh=780,busy=13
     #[arg(long, value_name = "KIND", default_value = "none")]
     stalls: Waits,

@@ -10,7 +10,7 @@ use anyhow::{Context as _, Result};
 use edgewalk_scene::{InputKind, triangle_file};
 use std::path::{Path, PathBuf};
 
-/// Writes a scene or a mesh as a triangle file: its triangles on the screen, as the machine takes them.
+/// Write a scene or a mesh as a triangle file: its triangles on the screen, as the machine takes them.
 ///
 /// Screen and guard band are those of the machine, colours those of --shading. `edgewalk raster`, and every other command
 /// that takes the file, draws the picture of the scene bit by bit.

@@ -94,7 +94,7 @@ pub fn apart(machine: &Plan, reach: Option<&Reach>) -> Option<Apart> {
 }
 
 /// What lies over these pixels, in drawing order.
-fn all_over(
+pub fn all_over(
     machine: &Plan,
     frame: &Frame,
     subpixel_bits: u32,

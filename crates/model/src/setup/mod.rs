@@ -19,6 +19,7 @@ pub(crate) mod edges;
 mod channels;
 pub(crate) mod clocks;
 mod schedule;
+pub mod sequencer;
 mod view;
 
 pub use clocks::{SetupClocks, longest_setup};
