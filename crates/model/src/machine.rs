@@ -28,8 +28,8 @@ use crate::span::Span;
 use crate::stage::{self, Made, Stage};
 use crate::term::{Term, Walked};
 use crate::tokens::{FEW, Fragment, Line};
-use crate::word_memory::{Ask, MEMORIES, WordIn};
 use crate::wires::{Offers, Wires};
+use crate::word_memory::{Ask, MEMORIES, WordIn};
 use edgewalk_machine::{Activity, Plan};
 
 /// State of the whole machine, `C` words a token; [`for_channels`](crate::for_channels!) finds the number that serves a

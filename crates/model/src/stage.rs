@@ -8,9 +8,9 @@
 
 use crate::Events;
 use crate::bump::Bump;
+use crate::io::Inputs;
 use crate::lamp::Lamp;
 use crate::lit::{Given, Lit};
-use crate::io::Inputs;
 use crate::normal::Normal;
 use crate::ports::{Pins, Ported, Shown};
 use crate::project::Project;

@@ -15,7 +15,8 @@ mod walk;
 pub(crate) mod fragments;
 
 pub use structure::{
-    Field, Id, Item, LinkView, Mark, Moment, Register, Row, Sentence, Shape, Store, Structure, Table, UnitView,
+    Field, Id, Item, LinkView, Mark, Moment, Register, Row, Sentence, Shape, Store, Structure, Table,
+    UnitView,
 };
 pub use tokens::{Kind, Tokens};
 

@@ -62,11 +62,7 @@ impl<const C: usize> Model<C> {
     #[inline(always)]
     #[must_use]
     pub fn links<'a>(&'a self, wires: &Wires, made: &'a [Made<C>], place: usize) -> Links<'a, C> {
-        Links {
-            from: self.given(made, place),
-            gives: wires.offered[place + 1],
-            next: wires.ready[place + 1],
-        }
+        Links { from: self.given(made, place), gives: wires.offered[place + 1], next: wires.ready[place + 1] }
     }
 
     /// Clock edge of the stage at this place; the stages before it have not stepped yet.
