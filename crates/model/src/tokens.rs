@@ -1,6 +1,6 @@
 //! The tokens that move between the units.
 
-use crate::named::{Sourced, named};
+use crate::named::{Named, named};
 pub use edgewalk_machine::MAX_CHANNELS;
 use edgewalk_machine::{Channel, EdgeKind, Plan};
 
@@ -78,6 +78,12 @@ pub struct Source {
     pub tag: u32,
     /// Not hardware: the triangle's number in the order of arrival, so that a picture can say who drew a pixel.
     pub id: u32,
+}
+
+/// A token with the triangle that it comes from.
+pub trait Sourced: Named {
+    /// The triangle.
+    fn source(&mut self) -> &mut Source;
 }
 
 /// An edge on its way from line to line (bound 9): column `c` and remainder `r`, stepped by quotient `q` and fraction `f`.

@@ -1,6 +1,6 @@
 //! Which lines a triangle draws, and how its edges walk over them.
 
-use super::round_div;
+use super::round::round_div;
 use super::sort::{Corner, Sorted};
 use crate::tokens::{EdgeWalk, sign_extend};
 use edgewalk_machine::{EdgeKind, Fill, Plan, Role};

@@ -13,6 +13,7 @@
 //! Rules: `docs/machine.md`, section 2. Not modelled: the lanes bit by bit; all is computed when the triangle arrives
 //! and appears when the hardware would have it.
 
+mod round;
 pub(crate) mod sort;
 pub(crate) mod edges;
 mod channels;
@@ -255,15 +256,6 @@ pub(crate) fn prepare<const C: usize>(
     channels::prepare(plan, sorted, &parts, prim);
     let phase2 = timing.phase2(sorted, &parts, prim, (area, scale));
     (SetupClocks { phase1, phase2 }, None)
-}
-
-/// floor(n/d + 1/2), d > 0: RN. Most numbers fit in 64 bits, whose division takes the host a fraction of the time.
-fn round_div(n: i128, d: i128) -> i128 {
-    let n = n + d / 2;
-    match (i64::try_from(n), i64::try_from(d)) {
-        (Ok(n), Ok(d)) => n.div_euclid(d).into(),
-        _ => n.div_euclid(d),
-    }
 }
 
 impl<const C: usize> Ported<C> for Setup<C> {
