@@ -29,8 +29,8 @@ use crate::ports::{Pins, Ported, Shown};
 use crate::tokens::{FEW, Prim, Source};
 use clocks::Timing;
 use edges::Screen;
-use edgewalk_machine::{Plan, PortVertex};
-use sort::{Corner, Sorted};
+use edgewalk_machine::{Plan, PortVertex, Role};
+use sort::Sorted;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum State {
@@ -80,7 +80,7 @@ impl<const C: usize> Setup<C> {
             culled: false,
             clocks: SetupClocks::default(),
             prim: Prim::default(),
-            sorted: Box::new(Sorted { corners: [Corner { u: 0, v: 0, values: [0; C] }; 3] }),
+            sorted: Box::new(Sorted::default()),
             taken: 0,
             record: u32::MAX,
         }
@@ -180,6 +180,10 @@ impl<const C: usize> Setup<C> {
         events.setup.major_left += u64::from(!self.prim.major_right);
         events.setup.no_upper_part += u64::from(n1 == 0);
         events.setup.no_lower_part += u64::from(n2 == 0);
+        if let Role::Line { flat } = sorted.role {
+            events.setup.line_flat += u64::from(flat);
+            events.setup.line_steep += u64::from(!flat);
+        }
         events.setup.knee_on_line += u64::from(n1 > 0 && n2 > 0 && knee % p == 0);
     }
 }
@@ -242,6 +246,8 @@ pub(crate) fn prepare<const C: usize>(
     *prim = Prim {
         line: parts.drawn() as u32, // first drawn line, 0 <= jm < H
         lines: parts.lines,
+        thin: sorted.role != Role::Triangle,
+        flat: sorted.role == Role::Line { flat: true },
         major_right: area < 0,
         major: edges::walk(plan, a, c, parts.drawn(), n1 + n2),
         minor: [edges::walk(plan, a, b, j0, n1), edges::walk(plan, b, c, j1, n2)],
