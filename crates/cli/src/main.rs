@@ -63,10 +63,10 @@ struct Cli {
     command: Command,
     #[command(flatten)]
     machine: MachineArgs,
-    /// Prints the report as one JSON document instead of text, and errors as JSON too
+    /// Print the report as one JSON document instead of text, and errors as JSON too
     #[arg(long, global = true)]
     json: bool,
-    /// Prints nothing but errors
+    /// Print nothing but errors
     #[arg(long, short, global = true)]
     quiet: bool,
 }

@@ -56,7 +56,11 @@ pub fn pictures(
         see(beside.drawn);
         match &mut report {
             Some(report) => report.add(beside.drawn),
-            None => report = Some(Report::new(name, triangles, machine, beside.drawn, waits)),
+            None => {
+                let mut first = Report::new(name, triangles, machine, beside.drawn, waits);
+                first.drawn.lines = frame.lines.len() as u64;
+                report = Some(first);
+            }
         }
         Ok(())
     };

@@ -9,6 +9,7 @@ use crate::channel::{MAX_CHANNELS, Precision};
 use crate::extra::ExtraChannel;
 use crate::key::Domain::{OneOf, Range};
 use crate::key::{Domain, Key, number, word};
+use crate::polygon::Polygon;
 use crate::shade::Shade;
 use crate::shadow::Shadow;
 
@@ -82,6 +83,8 @@ pub struct Machine {
     pub segments: u32,
     /// How SETUP does its work.
     pub setup_kind: SetupKind,
+    /// Lines beside triangles.
+    pub polygon: Polygon,
     /// Setup lanes, each with one pair of quotient and remainder: 1, 2 or 4.
     pub lanes: u32,
     /// Depth of the span FIFO, spans.
@@ -136,6 +139,7 @@ impl Default for Machine {
             adders: 4,
             segments: 1,
             setup_kind: SetupKind::Parallel,
+            polygon: Polygon::default(),
             lanes: 4,
             span_fifo: 2,
             inflight: 4,

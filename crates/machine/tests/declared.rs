@@ -292,11 +292,16 @@ fn sequenced_setup_takes_a_triangle_word_by_word() {
 
 #[test]
 fn sequenced_setup_refuses_what_its_program_lacks() {
-    for (key, value) in [("edge.fill", "textbook"), ("edge.kind", "slope")] {
-        let keys = [("setup.kind", "sequenced"), ("screen.subpixel_bits", "0"), (key, value)];
+    let cases = [
+        ("edge.fill", "textbook", "exact", "0"),
+        ("edge.kind", "slope", "exact", "0"),
+        ("polygon.lines", "yes", "no", "8"),
+    ];
+    for (key, value, permitted, subpixels) in cases {
+        let keys = [("setup.kind", "sequenced"), ("screen.subpixel_bits", subpixels), (key, value)];
         let error = machine(&keys).plan().expect_err(key).to_string();
         let wanted = format!(
-            "setup.kind = sequenced cannot be built: its program has no steps for {key} = {value}, only for exact; try setup.kind = parallel"
+            "setup.kind = sequenced cannot be built: its program has no steps for {key} = {value}, only for {permitted}; try setup.kind = parallel"
         );
         assert_eq!(error, wanted);
     }

@@ -13,6 +13,7 @@
 //! Rules: `docs/machine.md`, section 2. Not modelled: the lanes bit by bit; all is computed when the triangle arrives
 //! and appears when the hardware would have it.
 
+mod round;
 pub(crate) mod sort;
 pub(crate) mod edges;
 mod channels;
@@ -29,8 +30,8 @@ use crate::ports::{Pins, Ported, Shown};
 use crate::tokens::{FEW, Prim, Source};
 use clocks::Timing;
 use edges::{Parts, Screen};
-use edgewalk_machine::{Plan, PortVertex};
-use sort::{Corner, Sorted};
+use edgewalk_machine::{Plan, PortVertex, Role};
+use sort::Sorted;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum State {
@@ -84,7 +85,7 @@ impl<const C: usize> Setup<C> {
             culled: false,
             clocks: SetupClocks::default(),
             prim: Prim::default(),
-            sorted: Box::new(Sorted { corners: [Corner { u: 0, v: 0, values: [0; C] }; 3] }),
+            sorted: Box::new(Sorted::default()),
             taken: 0,
             record: u32::MAX,
             words: if plan.is_sequenced() { plan.triangle_words() } else { 1 },
@@ -211,6 +212,10 @@ impl<const C: usize> Setup<C> {
         events.setup.major_left += u64::from(!self.prim.major_right);
         events.setup.no_upper_part += u64::from(n1 == 0);
         events.setup.no_lower_part += u64::from(n2 == 0);
+        if let Role::Line { flat } = sorted.role {
+            events.setup.line_flat += u64::from(flat);
+            events.setup.line_steep += u64::from(!flat);
+        }
         events.setup.knee_on_line += u64::from(n1 > 0 && n2 > 0 && knee % p == 0);
     }
 }
@@ -291,6 +296,8 @@ fn found<const C: usize>(
     *prim = Prim {
         line: parts.drawn() as u32, // first drawn line, 0 <= jm < H
         lines: parts.lines,
+        thin: sorted.role != Role::Triangle,
+        flat: sorted.role == Role::Line { flat: true },
         major_right: area < 0,
         major: edges::walk(plan, a, c, parts.drawn(), n1 + n2),
         minor: [edges::walk(plan, a, b, j0, n1), edges::walk(plan, b, c, j1, n2)],
@@ -299,15 +306,6 @@ fn found<const C: usize>(
     channels::prepare(plan, sorted, parts, prim);
     let phase2 = timing.phase2(sorted, parts, prim, (area, scale));
     (SetupClocks { phase1, phase2 }, None)
-}
-
-/// floor(n/d + 1/2), d > 0: RN. Most numbers fit in 64 bits, whose division takes the host a fraction of the time.
-fn round_div(n: i128, d: i128) -> i128 {
-    let n = n + d / 2;
-    match (i64::try_from(n), i64::try_from(d)) {
-        (Ok(n), Ok(d)) => n.div_euclid(d).into(),
-        _ => n.div_euclid(d),
-    }
 }
 
 impl<const C: usize> Ported<C> for Setup<C> {

@@ -46,7 +46,7 @@ fn exact(machine: &Plan, frame: &Frame, ids: &[i32], wanted: HashSet<u64>) -> Ha
         return exact;
     }
     for (number, id) in ids.iter().enumerate().filter(|(number, _)| wanted.contains(&(*number as u64))) {
-        let Some(triangle) = usize::try_from(*id).ok().and_then(|id| frame.triangles.get(id)) else {
+        let Some(triangle) = usize::try_from(*id).ok().and_then(|id| frame.triangle_at(id)) else {
             continue;
         };
         let screen = (machine.width, machine.height);
