@@ -1,6 +1,7 @@
 //! Progress bars on long work: on standard error, only for a terminal.
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
 /// A bar over `length` things; hidden when quiet, and by itself when standard error is no terminal.
@@ -11,6 +12,28 @@ pub fn bar(length: u64, what: &'static str, quiet: bool) -> ProgressBar {
         bar.set_style(style);
     }
     bar.with_message(what)
+}
+
+/// `--quiet` was asked for: for signs of life of what every command does.
+static QUIET: AtomicBool = AtomicBool::new(false);
+
+/// Shows no sign of life from now on.
+pub fn be_quiet() {
+    QUIET.store(true, Ordering::Relaxed);
+}
+
+/// A sign of life while an input is read, which may be large. It goes when it is dropped.
+pub fn reading() -> Reading {
+    Reading(spinner("reading", QUIET.load(Ordering::Relaxed)))
+}
+
+/// An input is being read.
+pub struct Reading(ProgressBar);
+
+impl Drop for Reading {
+    fn drop(&mut self) {
+        self.0.finish_and_clear();
+    }
 }
 
 /// A sign of life beside work whose length is not known; hidden as a bar is.
