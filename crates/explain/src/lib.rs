@@ -196,7 +196,7 @@ fn covered(drawing: &Drawing, machine: &Plan) -> u64 {
 }
 
 /// Pixels of a band, about: each takes 49 bytes.
-const BAND: u32 = 1 << 22;
+const BAND: u32 = 1 << 19;
 
 /// What the machine stores at a pixel, all triangles drawn.
 fn stored(frame: &Frame, machine: &Plan, pixel: (u32, u32)) -> Result<Stored> {

@@ -62,10 +62,33 @@ pub fn render_rtl_passes(
     stalls: StallKind,
     shading: &Shading,
 ) -> Result<Frame, DrawError> {
+    render_on(&mut tagged_netlist(plan)?, plan, triangles, passes, maps, stalls, shading)
+}
+
+/// Draws the triangles by one state, as [`render_rtl`] does; gives the counters and no picture, which on a large screen takes much memory.
+///
+/// # Errors
+/// Triangles whose vertices were made for another machine.
+pub fn tick_rtl(
+    plan: &Plan,
+    triangles: impl IntoIterator<Item = [PortVertex; 3]>,
+    state: DrawState,
+    shading: &Shading,
+) -> Result<Counters, DrawError> {
+    let mut device = tagged_netlist(plan)?;
+    let passes = [Pass::all(state)];
+    let drawn = run(plan, &plan.tagged(), triangles, &passes, (&[], shading), StallKind::None, |ports| {
+        device.cycle(ports);
+        true
+    })?;
+    Ok(drawn.counters())
+}
+
+/// The netlist of the machine with tags of 32 bits, in the interpreter.
+fn tagged_netlist(plan: &Plan) -> Result<NetlistDevice, DrawError> {
     let tagged = plan.tagged();
-    let mut device =
-        NetlistDevice::new(&*netlist(&tagged, Unit::MACHINE)?, &Interface::new(&tagged, Unit::MACHINE))?;
-    render_on(&mut device, plan, triangles, passes, maps, stalls, shading)
+    let (netlist, interface) = (netlist(&tagged, Unit::MACHINE)?, Interface::new(&tagged, Unit::MACHINE));
+    Ok(NetlistDevice::new(&*netlist, &interface)?)
 }
 
 /// As [`render_rtl_passes`], by a device that has just been reset and has the ports of the machine with tags of 32 bits,
