@@ -40,6 +40,9 @@ impl Drop for Reading {
 pub fn spinner(what: &'static str, quiet: bool) -> ProgressBar {
     let target = if quiet { ProgressDrawTarget::hidden() } else { ProgressDrawTarget::stderr() };
     let spinner = ProgressBar::with_draw_target(None, target).with_message(what);
-    spinner.enable_steady_tick(Duration::from_millis(250));
+    // A thread ticks, which is needed only where somebody sees it.
+    if !spinner.is_hidden() {
+        spinner.enable_steady_tick(Duration::from_millis(250));
+    }
     spinner
 }
