@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 // edgewalk 0.1.0, machine 4f0c71f00838
 
-// edgewalk_depth: DEPTH reads the old depth of every fragment, compares, and writes what passes.
+// edgewalk_depth: DEPTH reads the old depth of every fragment, compares, and writes a fragment that passes.
 //
 //            ┌──────────────── rd (address) ──> depth memory
 //   frag ────┴─> [in-flight queue] ─┬─ compare ─> [w] ── wr ──> depth and frame memory
 //            depth memory ── data ──┘
 //
 // Formats: unsigned depths; depth_func 0 never, 1 less, 2 equal, 3 lequal, 4 greater, 5 notequal, 6 gequal, 7 always.
-// Timing: a fragment is read in the cycle it comes, compared in the cycle its old depth comes, written in the next.
-// Rules: depths come in the order of the reads. depth_func and depth_write stay as they are while the machine is busy.
-// The depth is read whatever the function.
-// Hazard: a fragment takes the depth from the last older fragment that writes its pixel.
+// Timing: the read leaves in the cycle in which a fragment enters. The compare takes place in the cycle in which the old
+// depth arrives. The write follows one cycle later.
+// Rules: depths arrive in the order of the reads. depth_func and depth_write are stable while the machine is busy.
+// Every fragment reads, whatever the function.
+// Hazard: a fragment takes its depth from the youngest older fragment that writes its pixel.
 
 `timescale 1ns / 1ps
 `default_nettype none
@@ -20,37 +21,37 @@ module edgewalk_depth (
   input  wire        clk,
   input  wire        rst,
 
-  input  wire  [2:0] depth_func,   // 0 never 1 less 2 equal 3 lequal 4 greater 5 notequal 6 gequal 7 always: new ? old
-  input  wire        depth_write,  // depths of passing fragments are written
+  input  wire  [2:0] depth_func,   // new ? old: 0 never 1 less 2 equal 3 lequal 4 greater 5 notequal 6 gequal 7 always
+  input  wire        depth_write,  // write depths of fragments that pass
   input  wire        frag_valid,
   input  wire [18:0] frag_addr,    // line * 2^10 + column
   input  wire [23:0] frag_z,       // unorm24
   input  wire  [7:0] frag_r,       // unorm8
   input  wire  [7:0] frag_g,       // unorm8
   input  wire  [7:0] frag_b,       // unorm8
-  input  wire        frag_fence,   // what is in flight may be of the same pixel
+  input  wire        frag_fence,   // fragments in flight may lie on the same pixel
   input  wire        rd_ready,
   input  wire        data_valid,
-  input  wire [23:0] data_z,       // unorm24, old depth
+  input  wire [23:0] data_z,       // unorm24, old depth of the address read
   input  wire        wr_ready,
 
   output wire        frag_ready,
   output wire        rd_valid,
   output wire [18:0] rd_addr,      // line * 2^10 + column
   output wire        data_ready,
-  output reg         wr_valid,     // a pixel is being written
+  output reg         wr_valid,     // w holds a pixel to write
   output reg  [18:0] wr_addr,      // line * 2^10 + column
   output reg  [23:0] wr_z,         // unorm24
-  output reg         wr_z_en,      // the depth is written too
+  output reg         wr_z_en,      // 1: write the depth as well
   output reg   [7:0] wr_r,         // unorm8
   output reg   [7:0] wr_g,         // unorm8
   output reg   [7:0] wr_b,         // unorm8
-  output wire        hazard,       // the fragment must wait for one in flight
+  output wire        hazard,       // the offered fragment waits for one in flight
   output wire        full,         // the in-flight queue is full
-  output wire        occupied      // something is in flight
+  output wire        occupied      // a fragment is in flight
 );
 
-  // State: the queue of what waits for its old depth, and the pixel being written.
+  // State: the queue of fragments that wait for their old depths, and the write register w.
   reg [2:0] count;          // fragments in flight
   reg [18:0] place0_addr;   // line * 2^10 + column
   reg [23:0] place0_z;      // unorm24
@@ -58,8 +59,8 @@ module edgewalk_depth (
   reg [7:0] place0_g;       // unorm8
   reg [7:0] place0_b;       // unorm8
   reg place0_fwd_valid;     // an older fragment wrote this pixel
-  reg [23:0] place0_fwd_z;  // the depth it wrote
-  reg place0_follows;       // of the pixel that left in the cycle before
+  reg [23:0] place0_fwd_z;  // depth from the youngest older fragment of this pixel
+  reg place0_follows;       // same pixel as the fragment that left one cycle earlier
   wire place0_after_w = place0_follows && wr_valid && wr_z_en;
   reg [18:0] place1_addr;   // line * 2^10 + column
   reg [23:0] place1_z;      // unorm24
@@ -67,8 +68,8 @@ module edgewalk_depth (
   reg [7:0] place1_g;       // unorm8
   reg [7:0] place1_b;       // unorm8
   reg place1_fwd_valid;     // an older fragment wrote this pixel
-  reg [23:0] place1_fwd_z;  // the depth it wrote
-  reg place1_follows;       // of the pixel that left in the cycle before
+  reg [23:0] place1_fwd_z;  // depth from the youngest older fragment of this pixel
+  reg place1_follows;       // same pixel as the fragment that left one cycle earlier
   wire place1_after_w = place1_follows && wr_valid && wr_z_en;
   reg [18:0] place2_addr;   // line * 2^10 + column
   reg [23:0] place2_z;      // unorm24
@@ -76,8 +77,8 @@ module edgewalk_depth (
   reg [7:0] place2_g;       // unorm8
   reg [7:0] place2_b;       // unorm8
   reg place2_fwd_valid;     // an older fragment wrote this pixel
-  reg [23:0] place2_fwd_z;  // the depth it wrote
-  reg place2_follows;       // of the pixel that left in the cycle before
+  reg [23:0] place2_fwd_z;  // depth from the youngest older fragment of this pixel
+  reg place2_follows;       // same pixel as the fragment that left one cycle earlier
   wire place2_after_w = place2_follows && wr_valid && wr_z_en;
   reg [18:0] place3_addr;   // line * 2^10 + column
   reg [23:0] place3_z;      // unorm24
@@ -85,9 +86,9 @@ module edgewalk_depth (
   reg [7:0] place3_g;       // unorm8
   reg [7:0] place3_b;       // unorm8
   reg place3_fwd_valid;     // an older fragment wrote this pixel
-  reg [23:0] place3_fwd_z;  // the depth it wrote
+  reg [23:0] place3_fwd_z;  // depth from the youngest older fragment of this pixel
 
-  // A fragment enters when the queue has room and nothing in flight may change its depth.
+  // A fragment enters when the queue has room and no fragment in flight may change its depth.
   assign full = count[2];
   assign hazard = 1'b0;
   wire clear_to_read = !full && !hazard;
@@ -95,32 +96,32 @@ module edgewalk_depth (
   assign frag_ready = rd_ready && clear_to_read;
   wire push = rd_valid && rd_ready;
 
-  // Compare the head with its old depth when that comes and w is free.
+  // Compare the head with its old depth when the depth arrives and w is free.
   wire w_free = !wr_valid || wr_ready;
   wire has_head = |count;
-  wire goes = data_valid && w_free;  // a head leaves, if there is one
+  wire goes = data_valid && w_free;  // the head leaves, if the queue holds one
   assign data_ready = has_head && w_free;
   wire compare = has_head && goes;
-  wire [23:0] old = place0_fwd_valid ? place0_fwd_z : data_z;  // depth to compare with
+  wire [23:0] old = place0_fwd_valid ? place0_fwd_z : data_z;  // old depth of the head
   wire equal = place0_z == old;
 
-  // What w has just been filled with met the head a clock ahead: only the outcome is left to choose.
+  // w and the head were compared while w was loaded; here only the outcome is selected.
   wire next_less = place1_z < place0_z;
   wire next_equal = place1_z == place0_z;
-  reg passes_w;  // the head against what w holds
-  wire if_less = place0_after_w ? passes_w : depth_func[0];  // it passes if it is less
-  wire if_not = place0_after_w ? passes_w : equal ? depth_func[1] : depth_func[2];  // and if it is not
+  reg passes_w;  // outcome of the head against w
+  wire if_less = place0_after_w ? passes_w : depth_func[0];  // the head passes if its depth is less
+  wire if_not = place0_after_w ? passes_w : equal ? depth_func[1] : depth_func[2];  // the head passes if its depth is not less
 
   always @(posedge clk) begin
     passes_w <= next_less ? depth_func[0] : next_equal ? depth_func[1] : depth_func[2];
   end
 
-  // pass = less ? if_less : if_not, as the top bits of the difference: nothing stands behind its carry.
+  // pass = less ? if_less : if_not. The top bits of the difference make it, so no logic follows the carry.
   wire [25:0] outcome = {!if_less || if_not, if_less || if_not, place0_z}
                       - {1'b0, !(if_less && if_not), old};
   wire pass = outcome[25];
 
-  // Write what passes.
+  // Write a fragment that passes.
   always @(posedge clk) begin
     if (rst) begin
       wr_valid <= 1'b0;
@@ -141,7 +142,7 @@ module edgewalk_depth (
     end
   end
 
-  // The queue moves up when its head leaves; what enters goes behind the last.
+  // The queue moves up when its head leaves; a new fragment goes behind the last one.
   wire place0_moves = goes || (count <= 3'd0);
   wire place0_has_next = count > 3'd1;
   wire place1_moves = goes || (count <= 3'd1);
@@ -199,7 +200,7 @@ module edgewalk_depth (
     end
   end
 
-  // Forward: a word being written goes to every fragment of its pixel in the queue.
+  // Forward: a word on its way to memory goes to every queued fragment of its pixel.
   wire enters_after_w = wr_valid && wr_z_en && (wr_addr == frag_addr);
 
   always @(posedge clk) begin
@@ -242,7 +243,7 @@ module edgewalk_depth (
     end
   end
 
-  // What the head writes is in w a cycle later: who is of its pixel is found while it goes there.
+  // The head reaches w one cycle later. Meanwhile each place compares its address with the head's.
   wire enters_after_head = frag_addr == place0_addr;
   wire place1_after_head = place1_addr == place0_addr;
   wire place2_after_head = place2_addr == place0_addr;

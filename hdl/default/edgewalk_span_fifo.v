@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 // edgewalk 0.1.0, machine 4f0c71f00838
 
-// edgewalk_span_fifo: First in, first out: 2 places in registers; the others move up as the first is taken.
+// edgewalk_span_fifo: First in, first out: 2 places in registers. When the first token leaves, the others move up.
 //
 //   in ─> [place 1] ─> … ─> [place 0] ─> out
 //
-// Timing: a token taken in at a clock is seen at the output in the next cycle, if it is first.
-// Rules: in_ready does not look at out_ready: a full queue takes nothing in, even while its first token leaves.
+// Timing: a token taken in one clock is at the output in the next, if it is the first.
+// Rules: in_ready does not depend on out_ready. A full queue takes no token, even while its first token leaves.
 
 `timescale 1ns / 1ps
 `default_nettype none
@@ -18,32 +18,32 @@ module edgewalk_span_fifo (
   input  wire        in_valid,
   input  wire [14:0] in_x,          // signed, first column
   input  wire  [8:0] in_y,          // line
-  input  wire [14:0] in_count,      // pixels, at least 1
-  input  wire        in_leftward,   // towards smaller columns
+  input  wire [14:0] in_count,      // pixels of the span, at least 1
+  input  wire        in_leftward,   // 1: the span runs towards smaller columns
   input  wire [37:0] in_z,          // UQ24.14 LSB, modular
   input  wire [21:0] in_r,          // UQ8.14 LSB, modular
   input  wire [21:0] in_g,          // UQ8.14 LSB, modular
   input  wire [21:0] in_b,          // UQ8.14 LSB, modular
-  input  wire        in_fresh,      // first span of the triangle: its increments are new
-  input  wire        in_fence,      // what is in flight may be of the same pixels
+  input  wire        in_fresh,      // first span of the triangle; increments are new
+  input  wire        in_fence,      // fragments in flight may lie on the same pixels
   input  wire        out_ready,
 
-  output wire        any_fresh,     // of a token in the queue
+  output wire        any_fresh,     // a queued token has this flag
   output wire        in_ready,
   output wire        out_valid,
   output wire [14:0] out_x,         // signed, first column
   output wire  [8:0] out_y,         // line
-  output wire [14:0] out_count,     // pixels, at least 1
-  output wire        out_leftward,  // towards smaller columns
+  output wire [14:0] out_count,     // pixels of the span, at least 1
+  output wire        out_leftward,  // 1: the span runs towards smaller columns
   output wire [37:0] out_z,         // UQ24.14 LSB, modular
   output wire [21:0] out_r,         // UQ8.14 LSB, modular
   output wire [21:0] out_g,         // UQ8.14 LSB, modular
   output wire [21:0] out_b,         // UQ8.14 LSB, modular
-  output wire        out_fresh,     // first span of the triangle: its increments are new
-  output wire        out_fence      // what is in flight may be of the same pixels
+  output wire        out_fresh,     // first span of the triangle; increments are new
+  output wire        out_fence      // fragments in flight may lie on the same pixels
 );
 
-  // How many places are taken, counted from place 0.
+  // Count of the places in use; place 0 is the first.
   reg [1:0] count;  // tokens
   assign in_ready = count < 2'd2;
   assign out_valid = |count;
@@ -59,31 +59,31 @@ module edgewalk_span_fifo (
     end
   end
 
-  // A free place takes the input in every cycle, the last taken one as its token moves up; a push makes it count.
+  // Each free place loads the input in every cycle; so does the last used place when its token moves up. A push makes the loaded token count.
   reg [14:0] place0_x;      // signed, first column
   reg [8:0] place0_y;       // line
-  reg [14:0] place0_count;  // pixels, at least 1
-  reg place0_leftward;      // towards smaller columns
+  reg [14:0] place0_count;  // pixels of the span, at least 1
+  reg place0_leftward;      // 1: the span runs towards smaller columns
   reg [37:0] place0_z;      // UQ24.14 LSB, modular
   reg [21:0] place0_r;      // UQ8.14 LSB, modular
   reg [21:0] place0_g;      // UQ8.14 LSB, modular
   reg [21:0] place0_b;      // UQ8.14 LSB, modular
-  reg place0_fresh;         // first span of the triangle: its increments are new
-  reg place0_fence;         // what is in flight may be of the same pixels
+  reg place0_fresh;         // first span of the triangle; increments are new
+  reg place0_fence;         // fragments in flight may lie on the same pixels
   reg [14:0] place1_x;      // signed, first column
   reg [8:0] place1_y;       // line
-  reg [14:0] place1_count;  // pixels, at least 1
-  reg place1_leftward;      // towards smaller columns
+  reg [14:0] place1_count;  // pixels of the span, at least 1
+  reg place1_leftward;      // 1: the span runs towards smaller columns
   reg [37:0] place1_z;      // UQ24.14 LSB, modular
   reg [21:0] place1_r;      // UQ8.14 LSB, modular
   reg [21:0] place1_g;      // UQ8.14 LSB, modular
   reg [21:0] place1_b;      // UQ8.14 LSB, modular
-  reg place1_fresh;         // first span of the triangle: its increments are new
-  reg place1_fence;         // what is in flight may be of the same pixels
+  reg place1_fresh;         // first span of the triangle; increments are new
+  reg place1_fence;         // fragments in flight may lie on the same pixels
   wire place0_moves = pop || (count <= 2'd0);
   wire place0_has_next = count > 2'd1;
   wire place1_moves = pop || (count <= 2'd1);
-  reg any_fresh_queued;     // of a token in the queue
+  reg any_fresh_queued;     // a queued token has this flag
 
   always @(posedge clk) begin
     if (place0_moves) begin

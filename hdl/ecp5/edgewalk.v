@@ -7,9 +7,9 @@
 //                         └────────── inc ──────────┘             └─rd / data─ depth memory
 //
 // A link ─> has valid and ready: a token moves in a cycle where both are high. valid never waits for ready.
-// Values under the links hold beside their tokens. One clock, synchronous reset rst, active high.
-// activity is the one cause of the cycle: 0 idle 1 draw 2 offscreen 3 hazard 4 queue 5 memory 6 edge 7 setup 8 flush;
-// in all but draw and offscreen PIXEL stalls.
+// Values below the links are stable while their tokens are offered. One clock; rst is synchronous, active high.
+// activity is the single cause of the cycle: 0 idle 1 draw 2 offscreen 3 hazard 4 queue 5 memory 6 edge 7 setup 8 flush.
+// PIXEL stalls in every cause but draw and offscreen.
 
 `timescale 1ns / 1ps
 `default_nettype none
@@ -37,11 +37,11 @@ module edgewalk (
   input  wire  [7:0] tri_r2,       // UQ8.0 LSB
   input  wire  [7:0] tri_g2,       // UQ8.0 LSB
   input  wire  [7:0] tri_b2,       // UQ8.0 LSB
-  input  wire  [2:0] depth_func,   // 0 never 1 less 2 equal 3 lequal 4 greater 5 notequal 6 gequal 7 always: new ? old
-  input  wire        depth_write,  // depths of passing fragments are written
+  input  wire  [2:0] depth_func,   // new ? old: 0 never 1 less 2 equal 3 lequal 4 greater 5 notequal 6 gequal 7 always
+  input  wire        depth_write,  // write depths of fragments that pass
   input  wire        rd_ready,
   input  wire        data_valid,
-  input  wire [15:0] data_z,       // unorm16, old depth
+  input  wire [15:0] data_z,       // unorm16, old depth of the address read
   input  wire        wr_ready,
 
   output wire        tri_ready,
@@ -51,12 +51,12 @@ module edgewalk (
   output wire        wr_valid,
   output wire [18:0] wr_addr,      // line * 2^10 + column
   output wire [15:0] wr_z,         // unorm16
-  output wire        wr_z_en,      // the depth is written too
+  output wire        wr_z_en,      // 1: write the depth as well
   output wire  [7:0] wr_r,         // unorm8
   output wire  [7:0] wr_g,         // unorm8
   output wire  [7:0] wr_b,         // unorm8
-  output wire  [3:0] activity,     // the cause of the cycle
-  output wire        idle          // nothing to do
+  output wire  [3:0] activity,     // cause of the cycle
+  output wire        idle          // no triangle, fragment or write is inside
 );
 
   wire u_setup_prim_valid;
@@ -194,7 +194,7 @@ module edgewalk (
   wire [7:0] u_pixel_frag_b;
   wire u_pixel_frag_fence;
 
-  // The cause of the cycle.
+  // Cause of the cycle.
   localparam [3:0] DRAW = 4'd1;
   localparam [3:0] OFFSCREEN = 4'd2;
   localparam [3:0] HAZARD = 4'd3;

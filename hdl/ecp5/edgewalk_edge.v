@@ -27,35 +27,35 @@ module edgewalk_edge (
   input  wire        prim_major_right,  // the major edge is the right one
   input  wire [11:0] prim_major_c,      // signed, first column right of the edge
   input  wire [14:0] prim_major_r,      // distance from the edge to that column, 1/M column
-  input  wire [11:0] prim_major_q,      // signed, whole columns a line
+  input  wire [11:0] prim_major_q,      // signed, whole columns a line, step of c
   input  wire [14:0] prim_major_f,      // 1/M column a line
   input  wire [14:0] prim_major_m,      // modulus of r and f: the edge's height, 1/P line
   input  wire [11:0] prim_minor1_c,     // signed, first column right of the edge
   input  wire [14:0] prim_minor1_r,     // distance from the edge to that column, 1/M column
-  input  wire [11:0] prim_minor1_q,     // signed, whole columns a line
+  input  wire [11:0] prim_minor1_q,     // signed, whole columns a line, step of c
   input  wire [14:0] prim_minor1_f,     // 1/M column a line
   input  wire [14:0] prim_minor1_m,     // modulus of r and f: the edge's height, 1/P line
   input  wire [11:0] prim_minor2_c,     // signed, first column right of the edge
   input  wire [14:0] prim_minor2_r,     // distance from the edge to that column, 1/M column
-  input  wire [11:0] prim_minor2_q,     // signed, whole columns a line
+  input  wire [11:0] prim_minor2_q,     // signed, whole columns a line, step of c
   input  wire [14:0] prim_minor2_f,     // 1/M column a line
   input  wire [14:0] prim_minor2_m,     // modulus of r and f: the edge's height, 1/P line
-  input  wire [27:0] prim_z_start,      // UQ16.12 LSB, modular, at the first pixel of the first line
-  input  wire [27:0] prim_z_d0,         // UQ16.12 LSB, modular, to the next line, edge without carry
-  input  wire [27:0] prim_z_d1,         // UQ16.12 LSB, modular, to the next line, edge with carry
-  input  wire [27:0] prim_z_g,          // UQ16.12 LSB, modular, to the next pixel of the span
-  input  wire [19:0] prim_r_start,      // UQ8.12 LSB, modular, at the first pixel of the first line
-  input  wire [19:0] prim_r_d0,         // UQ8.12 LSB, modular, to the next line, edge without carry
-  input  wire [19:0] prim_r_d1,         // UQ8.12 LSB, modular, to the next line, edge with carry
-  input  wire [19:0] prim_r_g,          // UQ8.12 LSB, modular, to the next pixel of the span
-  input  wire [19:0] prim_g_start,      // UQ8.12 LSB, modular, at the first pixel of the first line
-  input  wire [19:0] prim_g_d0,         // UQ8.12 LSB, modular, to the next line, edge without carry
-  input  wire [19:0] prim_g_d1,         // UQ8.12 LSB, modular, to the next line, edge with carry
-  input  wire [19:0] prim_g_g,          // UQ8.12 LSB, modular, to the next pixel of the span
-  input  wire [19:0] prim_b_start,      // UQ8.12 LSB, modular, at the first pixel of the first line
-  input  wire [19:0] prim_b_d0,         // UQ8.12 LSB, modular, to the next line, edge without carry
-  input  wire [19:0] prim_b_d1,         // UQ8.12 LSB, modular, to the next line, edge with carry
-  input  wire [19:0] prim_b_g,          // UQ8.12 LSB, modular, to the next pixel of the span
+  input  wire [27:0] prim_z_start,      // UQ16.12 LSB, modular, value at the first pixel of the first line
+  input  wire [27:0] prim_z_d0,         // UQ16.12 LSB, modular, step to the next line, edge without carry
+  input  wire [27:0] prim_z_d1,         // UQ16.12 LSB, modular, step to the next line, edge with carry
+  input  wire [27:0] prim_z_g,          // UQ16.12 LSB, modular, step to the next pixel of the span
+  input  wire [19:0] prim_r_start,      // UQ8.12 LSB, modular, value at the first pixel of the first line
+  input  wire [19:0] prim_r_d0,         // UQ8.12 LSB, modular, step to the next line, edge without carry
+  input  wire [19:0] prim_r_d1,         // UQ8.12 LSB, modular, step to the next line, edge with carry
+  input  wire [19:0] prim_r_g,          // UQ8.12 LSB, modular, step to the next pixel of the span
+  input  wire [19:0] prim_g_start,      // UQ8.12 LSB, modular, value at the first pixel of the first line
+  input  wire [19:0] prim_g_d0,         // UQ8.12 LSB, modular, step to the next line, edge without carry
+  input  wire [19:0] prim_g_d1,         // UQ8.12 LSB, modular, step to the next line, edge with carry
+  input  wire [19:0] prim_g_g,          // UQ8.12 LSB, modular, step to the next pixel of the span
+  input  wire [19:0] prim_b_start,      // UQ8.12 LSB, modular, value at the first pixel of the first line
+  input  wire [19:0] prim_b_d0,         // UQ8.12 LSB, modular, step to the next line, edge without carry
+  input  wire [19:0] prim_b_d1,         // UQ8.12 LSB, modular, step to the next line, edge with carry
+  input  wire [19:0] prim_b_g,          // UQ8.12 LSB, modular, step to the next pixel of the span
   input  wire        line_ready,
   input  wire        fresh_queued,      // the triangle before has not reached PIXEL yet
 
@@ -70,7 +70,7 @@ module edgewalk_edge (
   output reg  [19:0] line_g,            // UQ8.12 LSB, modular
   output reg  [19:0] line_b,            // UQ8.12 LSB, modular
   output reg         line_fresh,        // first line of the triangle
-  output wire        line_fence,        // what is in flight may be of the same pixels
+  output wire        line_fence,        // fragments in flight may lie on the same pixels
   output reg  [27:0] inc_z,             // UQ16.12 LSB, modular
   output reg  [19:0] inc_r,             // UQ8.12 LSB, modular
   output reg  [19:0] inc_g,             // UQ8.12 LSB, modular
@@ -154,7 +154,7 @@ module edgewalk_edge (
 
   // The major edge.
   reg [11:0] major_c;     // signed, first column right of the edge
-  reg [11:0] major_q;     // signed, whole columns a line
+  reg [11:0] major_q;     // signed, whole columns a line, step of c
   reg [14:0] major_f;     // 1/M column a line
   reg [14:0] major_m;     // modulus of r and f: the edge's height, 1/P line
   reg [15:0] major_rest;  // R - f, signed: below 0 the step carries
@@ -189,13 +189,13 @@ module edgewalk_edge (
 
   // The minor edge, and the one that takes its place at the knee.
   reg [11:0] second_c;     // signed, first column right of the edge
-  reg [11:0] second_q;     // signed, whole columns a line
+  reg [11:0] second_q;     // signed, whole columns a line, step of c
   reg [14:0] second_f;     // 1/M column a line
   reg [14:0] second_m;     // modulus of r and f: the edge's height, 1/P line
   reg [15:0] second_rest;  // R - f, signed: below 0 the step carries
   wire [15:0] minor2_rest = {1'b0, prim_minor2_r} - {1'b0, prim_minor2_f};
   reg [11:0] minor_c;      // signed, first column right of the edge
-  reg [11:0] minor_q;      // signed, whole columns a line
+  reg [11:0] minor_q;      // signed, whole columns a line, step of c
   reg [14:0] minor_f;      // 1/M column a line
   reg [14:0] minor_m;      // modulus of r and f: the edge's height, 1/P line
   reg [15:0] minor_rest;   // R - f, signed: below 0 the step carries

@@ -50,35 +50,35 @@ module edgewalk_setup (
   output wire        prim_major_right,  // the major edge is the right one
   output reg  [11:0] prim_major_c,      // signed, first column right of the edge
   output reg  [14:0] prim_major_r,      // distance from the edge to that column, 1/M column
-  output reg  [11:0] prim_major_q,      // signed, whole columns a line
+  output reg  [11:0] prim_major_q,      // signed, whole columns a line, step of c
   output reg  [14:0] prim_major_f,      // 1/M column a line
   output wire [14:0] prim_major_m,      // modulus of r and f: the edge's height, 1/P line
   output reg  [11:0] prim_minor1_c,     // signed, first column right of the edge
   output reg  [14:0] prim_minor1_r,     // distance from the edge to that column, 1/M column
-  output reg  [11:0] prim_minor1_q,     // signed, whole columns a line
+  output reg  [11:0] prim_minor1_q,     // signed, whole columns a line, step of c
   output reg  [14:0] prim_minor1_f,     // 1/M column a line
   output wire [14:0] prim_minor1_m,     // modulus of r and f: the edge's height, 1/P line
   output reg  [11:0] prim_minor2_c,     // signed, first column right of the edge
   output reg  [14:0] prim_minor2_r,     // distance from the edge to that column, 1/M column
-  output reg  [11:0] prim_minor2_q,     // signed, whole columns a line
+  output reg  [11:0] prim_minor2_q,     // signed, whole columns a line, step of c
   output reg  [14:0] prim_minor2_f,     // 1/M column a line
   output wire [14:0] prim_minor2_m,     // modulus of r and f: the edge's height, 1/P line
-  output reg  [27:0] prim_z_start,      // UQ16.12 LSB, modular, at the first pixel of the first line
-  output reg  [27:0] prim_z_d0,         // UQ16.12 LSB, modular, to the next line, edge without carry
-  output reg  [27:0] prim_z_d1,         // UQ16.12 LSB, modular, to the next line, edge with carry
-  output reg  [27:0] prim_z_g,          // UQ16.12 LSB, modular, to the next pixel of the span
-  output reg  [19:0] prim_r_start,      // UQ8.12 LSB, modular, at the first pixel of the first line
-  output reg  [19:0] prim_r_d0,         // UQ8.12 LSB, modular, to the next line, edge without carry
-  output reg  [19:0] prim_r_d1,         // UQ8.12 LSB, modular, to the next line, edge with carry
-  output reg  [19:0] prim_r_g,          // UQ8.12 LSB, modular, to the next pixel of the span
-  output reg  [19:0] prim_g_start,      // UQ8.12 LSB, modular, at the first pixel of the first line
-  output reg  [19:0] prim_g_d0,         // UQ8.12 LSB, modular, to the next line, edge without carry
-  output reg  [19:0] prim_g_d1,         // UQ8.12 LSB, modular, to the next line, edge with carry
-  output reg  [19:0] prim_g_g,          // UQ8.12 LSB, modular, to the next pixel of the span
-  output reg  [19:0] prim_b_start,      // UQ8.12 LSB, modular, at the first pixel of the first line
-  output reg  [19:0] prim_b_d0,         // UQ8.12 LSB, modular, to the next line, edge without carry
-  output reg  [19:0] prim_b_d1,         // UQ8.12 LSB, modular, to the next line, edge with carry
-  output reg  [19:0] prim_b_g           // UQ8.12 LSB, modular, to the next pixel of the span
+  output reg  [27:0] prim_z_start,      // UQ16.12 LSB, modular, value at the first pixel of the first line
+  output reg  [27:0] prim_z_d0,         // UQ16.12 LSB, modular, step to the next line, edge without carry
+  output reg  [27:0] prim_z_d1,         // UQ16.12 LSB, modular, step to the next line, edge with carry
+  output reg  [27:0] prim_z_g,          // UQ16.12 LSB, modular, step to the next pixel of the span
+  output reg  [19:0] prim_r_start,      // UQ8.12 LSB, modular, value at the first pixel of the first line
+  output reg  [19:0] prim_r_d0,         // UQ8.12 LSB, modular, step to the next line, edge without carry
+  output reg  [19:0] prim_r_d1,         // UQ8.12 LSB, modular, step to the next line, edge with carry
+  output reg  [19:0] prim_r_g,          // UQ8.12 LSB, modular, step to the next pixel of the span
+  output reg  [19:0] prim_g_start,      // UQ8.12 LSB, modular, value at the first pixel of the first line
+  output reg  [19:0] prim_g_d0,         // UQ8.12 LSB, modular, step to the next line, edge without carry
+  output reg  [19:0] prim_g_d1,         // UQ8.12 LSB, modular, step to the next line, edge with carry
+  output reg  [19:0] prim_g_g,          // UQ8.12 LSB, modular, step to the next pixel of the span
+  output reg  [19:0] prim_b_start,      // UQ8.12 LSB, modular, value at the first pixel of the first line
+  output reg  [19:0] prim_b_d0,         // UQ8.12 LSB, modular, step to the next line, edge without carry
+  output reg  [19:0] prim_b_d1,         // UQ8.12 LSB, modular, step to the next line, edge with carry
+  output reg  [19:0] prim_b_g           // UQ8.12 LSB, modular, step to the next pixel of the span
 );
 
   // Control: the operations one after the other, a clock each or more; in rounds where there are more jobs than lanes.

@@ -8,10 +8,10 @@
 //                  └────────────────────────────────────────┘
 //
 // Formats: values and increments are modular words; a fragment takes the bits above the fraction.
-// Timing: a pixel leaves in the last of its phases. The additions for the next pixel begin in that same phase and go on
-// in the first phases of the next pixel, one channel of each adder a clock; an adder without one more rests.
-// Rules: everything stands still while a fragment waits at the output. Columns off the screen cost their phases, and give
-// no fragment.
+// Timing: a pixel leaves in its last phase. In that phase the additions for the next pixel begin. Each adder serves one
+// channel a clock; an adder without a channel rests.
+// Rules: the unit stalls while a fragment waits at the output. A column off the screen costs its phases and makes no
+// fragment.
 
 `timescale 1ns / 1ps
 `default_nettype none
@@ -23,14 +23,14 @@ module edgewalk_pixel (
   input  wire        span_valid,
   input  wire  [9:0] span_x,         // signed, first column
   input  wire  [7:0] span_y,         // line
-  input  wire  [9:0] span_count,     // pixels, at least 1
-  input  wire        span_leftward,  // towards smaller columns
+  input  wire  [9:0] span_count,     // pixels of the span, at least 1
+  input  wire        span_leftward,  // 1: the span runs towards smaller columns
   input  wire [25:0] span_z,         // UQ16.10 LSB, modular
   input  wire [14:0] span_r,         // UQ5.10 LSB, modular
   input  wire [14:0] span_g,         // UQ5.10 LSB, modular
   input  wire [14:0] span_b,         // UQ5.10 LSB, modular
-  input  wire        span_fresh,     // first span of the triangle: its increments are new
-  input  wire        span_fence,     // what is in flight may be of the same pixels
+  input  wire        span_fresh,     // first span of the triangle; increments are new
+  input  wire        span_fence,     // fragments in flight may lie on the same pixels
   input  wire [25:0] inc_z,          // UQ16.10 LSB, modular
   input  wire [14:0] inc_r,          // UQ5.10 LSB, modular
   input  wire [14:0] inc_g,          // UQ5.10 LSB, modular
@@ -44,29 +44,29 @@ module edgewalk_pixel (
   output reg   [4:0] frag_r,         // unorm5
   output reg   [4:0] frag_g,         // unorm5
   output reg   [4:0] frag_b,         // unorm5
-  output reg         frag_fence,     // what is in flight may be of the same pixel
-  output reg         active,         // a span is being drawn
-  output wire        visible,        // its pixel is on the screen
-  output wire        advance,        // nothing waits at the output
-  output wire        occupied        // a fragment is in an output stage
+  output reg         frag_fence,     // fragments in flight may lie on the same pixel
+  output reg         active,         // a span is in progress
+  output wire        visible,        // the current pixel is on the screen
+  output wire        advance,        // the output is free or taken: the unit advances
+  output wire        occupied        // an output stage holds a fragment
 );
 
-  // The span being drawn.
+  // The span in progress.
   assign advance = !frag_valid || frag_ready;
-  reg [9:0] x;      // column, signed
+  reg [9:0] x;      // current column, signed
   reg [7:0] y;      // line
   reg leftward;     // towards smaller columns
-  reg [9:0] count;  // pixels left of the span, this one too
-  reg fence;        // for the next fragment
-  reg last;         // count is 1
+  reg [9:0] count;  // pixels left in the span, current one included
+  reg fence;        // fence of the next fragment
+  reg last;         // count = 1: last pixel of the span
 
-  // Registers alone say whether the span goes on. Where it does not, one may enter; what is loaded while none comes means nothing.
+  // Registers alone decide whether the span continues. Otherwise PIXEL loads the offered span. Values loaded without a valid span are don't care.
   wire finish = active && last;      // last clock of the span
-  wire goes_on = active && !finish;  // the next clock is this span's too
+  wire goes_on = active && !finish;  // the span continues in the next clock
   assign span_ready = advance && !goes_on;
   wire load = span_valid && span_ready;
   assign visible = x < 10'd240;
-  wire emit = active && visible;     // a fragment
+  wire emit = active && visible;     // PIXEL makes a fragment
 
   always @(posedge clk) begin
     if (rst) begin
@@ -92,10 +92,10 @@ module edgewalk_pixel (
     end
   end
 
-  // The additions.
+  // One adder serves one channel, or several in turn.
   wire new_increments = span_valid && span_fresh;
 
-  // The words of z.
+  // Value and increment of channel z.
   reg [25:0] z_value;  // UQ16.10 LSB, modular
   reg [25:0] z_inc;    // UQ16.10 LSB, modular
 
@@ -103,14 +103,14 @@ module edgewalk_pixel (
     if (advance && !goes_on && new_increments) z_inc <= inc_z;
   end
 
-  // Its adder.
+  // Adder of this channel.
   wire [25:0] z_sum = z_value + z_inc;
 
   always @(posedge clk) begin
     if (advance) z_value <= goes_on ? z_sum : span_z;
   end
 
-  // The words of r.
+  // Value and increment of channel r.
   reg [14:0] r_value;  // UQ5.10 LSB, modular
   reg [14:0] r_inc;    // UQ5.10 LSB, modular
 
@@ -118,14 +118,14 @@ module edgewalk_pixel (
     if (advance && !goes_on && new_increments) r_inc <= inc_r;
   end
 
-  // Its adder.
+  // Adder of this channel.
   wire [14:0] r_sum = r_value + r_inc;
 
   always @(posedge clk) begin
     if (advance) r_value <= goes_on ? r_sum : span_r;
   end
 
-  // The words of g.
+  // Value and increment of channel g.
   reg [14:0] g_value;  // UQ5.10 LSB, modular
   reg [14:0] g_inc;    // UQ5.10 LSB, modular
 
@@ -133,14 +133,14 @@ module edgewalk_pixel (
     if (advance && !goes_on && new_increments) g_inc <= inc_g;
   end
 
-  // Its adder.
+  // Adder of this channel.
   wire [14:0] g_sum = g_value + g_inc;
 
   always @(posedge clk) begin
     if (advance) g_value <= goes_on ? g_sum : span_g;
   end
 
-  // The words of b.
+  // Value and increment of channel b.
   reg [14:0] b_value;  // UQ5.10 LSB, modular
   reg [14:0] b_inc;    // UQ5.10 LSB, modular
 
@@ -148,14 +148,14 @@ module edgewalk_pixel (
     if (advance && !goes_on && new_increments) b_inc <= inc_b;
   end
 
-  // Its adder.
+  // Adder of this channel.
   wire [14:0] b_sum = b_value + b_inc;
 
   always @(posedge clk) begin
     if (advance) b_value <= goes_on ? b_sum : span_b;
   end
 
-  // The output: in each stage the bits of one more segment.
+  // Output: each stage completes the bits of one more segment.
   always @(posedge clk) begin
     if (advance) begin
       frag_addr <= {y, x[7:0]};

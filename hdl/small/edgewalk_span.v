@@ -28,21 +28,21 @@ module edgewalk_span (
   input  wire [14:0] line_g,            // UQ5.10 LSB, modular
   input  wire [14:0] line_b,            // UQ5.10 LSB, modular
   input  wire        line_fresh,        // first line of the triangle
-  input  wire        line_fence,        // what is in flight may be of the same pixels
+  input  wire        line_fence,        // fragments in flight may lie on the same pixels
   input  wire        span_ready,
 
   output wire        line_ready,
   output wire        span_valid,
   output wire  [9:0] span_x,            // signed, first column
   output wire  [7:0] span_y,            // line
-  output wire  [9:0] span_count,        // pixels, at least 1
-  output wire        span_leftward,     // towards smaller columns
+  output wire  [9:0] span_count,        // pixels of the span, at least 1
+  output wire        span_leftward,     // 1: the span runs towards smaller columns
   output wire [25:0] span_z,            // UQ16.10 LSB, modular
   output wire [14:0] span_r,            // UQ5.10 LSB, modular
   output wire [14:0] span_g,            // UQ5.10 LSB, modular
   output wire [14:0] span_b,            // UQ5.10 LSB, modular
-  output wire        span_fresh,        // first span of the triangle: its increments are new
-  output wire        span_fence,        // what is in flight may be of the same pixels
+  output wire        span_fresh,        // first span of the triangle; increments are new
+  output wire        span_fence,        // fragments in flight may lie on the same pixels
   output wire        fresh_queued,      // the first span of a triangle is queued, or may come of the line held
   output reg         line_held          // a line stands before the queue
 );
@@ -71,8 +71,8 @@ module edgewalk_span (
   reg [14:0] held_r;                          // UQ5.10 LSB, modular
   reg [14:0] held_g;                          // UQ5.10 LSB, modular
   reg [14:0] held_b;                          // UQ5.10 LSB, modular
-  reg held_fresh;                             // first span of the triangle: its increments are new
-  reg held_fence;                             // what is in flight may be of the same pixels
+  reg held_fresh;                             // first span of the triangle; increments are new
+  reg held_fence;                             // fragments in flight may lie on the same pixels
   reg [9:0] held_first;                       // signed, first column
   reg [9:0] held_end;                         // signed, the column behind the last, or one beyond the screen
   reg held_beyond;                            // it ends with the screen

@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 // edgewalk 0.1.0, machine 0ee73237105a
 
-// edgewalk_depth: DEPTH reads the old depth of every fragment, compares, and writes what passes.
+// edgewalk_depth: DEPTH reads the old depth of every fragment, compares, and writes a fragment that passes.
 //
 //            ┌──────────────── rd (address) ──> depth memory
 //   frag ────┴─> [in-flight queue] ─┬─ compare ─> [w] ── wr ──> depth and frame memory
 //            depth memory ── data ──┘
 //
 // Formats: unsigned depths; depth_func 0 never, 1 less, 2 equal, 3 lequal, 4 greater, 5 notequal, 6 gequal, 7 always.
-// Timing: a fragment is read in the cycle it comes, compared in the cycle its old depth comes, written in the next.
-// Rules: depths come in the order of the reads. depth_func and depth_write stay as they are while the machine is busy.
-// The depth is read whatever the function.
-// Hazard: a fragment with fence waits until nothing is in flight.
+// Timing: the read leaves in the cycle in which a fragment enters. The compare takes place in the cycle in which the old
+// depth arrives. The write follows one cycle later.
+// Rules: depths arrive in the order of the reads. depth_func and depth_write are stable while the machine is busy.
+// Every fragment reads, whatever the function.
+// Hazard: a fragment with fence waits until no fragment is in flight.
 
 `timescale 1ns / 1ps
 `default_nettype none
@@ -20,37 +21,37 @@ module edgewalk_depth (
   input  wire        clk,
   input  wire        rst,
 
-  input  wire  [2:0] depth_func,   // 0 never 1 less 2 equal 3 lequal 4 greater 5 notequal 6 gequal 7 always: new ? old
-  input  wire        depth_write,  // depths of passing fragments are written
+  input  wire  [2:0] depth_func,   // new ? old: 0 never 1 less 2 equal 3 lequal 4 greater 5 notequal 6 gequal 7 always
+  input  wire        depth_write,  // write depths of fragments that pass
   input  wire        frag_valid,
   input  wire [18:0] frag_addr,    // line * 2^10 + column
   input  wire [15:0] frag_z,       // unorm16
   input  wire  [7:0] frag_r,       // unorm8
   input  wire  [7:0] frag_g,       // unorm8
   input  wire  [7:0] frag_b,       // unorm8
-  input  wire        frag_fence,   // what is in flight may be of the same pixel
+  input  wire        frag_fence,   // fragments in flight may lie on the same pixel
   input  wire        rd_ready,
   input  wire        data_valid,
-  input  wire [15:0] data_z,       // unorm16, old depth
+  input  wire [15:0] data_z,       // unorm16, old depth of the address read
   input  wire        wr_ready,
 
   output wire        frag_ready,
   output wire        rd_valid,
   output wire [18:0] rd_addr,      // line * 2^10 + column
   output wire        data_ready,
-  output reg         wr_valid,     // a pixel is being written
+  output reg         wr_valid,     // w holds a pixel to write
   output reg  [18:0] wr_addr,      // line * 2^10 + column
   output reg  [15:0] wr_z,         // unorm16
-  output reg         wr_z_en,      // the depth is written too
+  output reg         wr_z_en,      // 1: write the depth as well
   output reg   [7:0] wr_r,         // unorm8
   output reg   [7:0] wr_g,         // unorm8
   output reg   [7:0] wr_b,         // unorm8
-  output wire        hazard,       // the fragment must wait for one in flight
+  output wire        hazard,       // the offered fragment waits for one in flight
   output wire        full,         // the in-flight queue is full
-  output wire        occupied      // something is in flight
+  output wire        occupied      // a fragment is in flight
 );
 
-  // State: the queue of what waits for its old depth, and the pixel being written.
+  // State: the queue of fragments that wait for their old depths, and the write register w.
   reg [2:0] count;         // fragments in flight
   reg [18:0] place0_addr;  // line * 2^10 + column
   reg [15:0] place0_z;     // unorm16
@@ -73,7 +74,7 @@ module edgewalk_depth (
   reg [7:0] place3_g;      // unorm8
   reg [7:0] place3_b;      // unorm8
 
-  // A fragment enters when the queue has room and nothing in flight may change its depth.
+  // A fragment enters when the queue has room and no fragment in flight may change its depth.
   assign full = count[2];
   assign hazard = frag_fence && ((|count) || wr_valid);
   wire clear_to_read = !full && !hazard;
@@ -81,23 +82,23 @@ module edgewalk_depth (
   assign frag_ready = rd_ready && clear_to_read;
   wire push = rd_valid && rd_ready;
 
-  // Compare the head with its old depth when that comes and w is free.
+  // Compare the head with its old depth when the depth arrives and w is free.
   wire w_free = !wr_valid || wr_ready;
   wire has_head = |count;
-  wire goes = data_valid && w_free;  // a head leaves, if there is one
+  wire goes = data_valid && w_free;  // the head leaves, if the queue holds one
   assign data_ready = has_head && w_free;
   wire compare = has_head && goes;
-  wire [15:0] old = data_z;          // depth to compare with
+  wire [15:0] old = data_z;          // old depth of the head
   wire equal = place0_z == old;
-  wire if_less = depth_func[0];      // it passes if it is less
-  wire if_not = equal ? depth_func[1] : depth_func[2];  // and if it is not
+  wire if_less = depth_func[0];      // the head passes if its depth is less
+  wire if_not = equal ? depth_func[1] : depth_func[2];  // the head passes if its depth is not less
 
-  // pass = less ? if_less : if_not, as the top bits of the difference: nothing stands behind its carry.
+  // pass = less ? if_less : if_not. The top bits of the difference make it, so no logic follows the carry.
   wire [17:0] outcome = {!if_less || if_not, if_less || if_not, place0_z}
                       - {1'b0, !(if_less && if_not), old};
   wire pass = outcome[17];
 
-  // Write what passes.
+  // Write a fragment that passes.
   always @(posedge clk) begin
     if (rst) begin
       wr_valid <= 1'b0;
@@ -118,7 +119,7 @@ module edgewalk_depth (
     end
   end
 
-  // The queue moves up when its head leaves; what enters goes behind the last.
+  // The queue moves up when its head leaves; a new fragment goes behind the last one.
   wire place0_moves = goes || (count <= 3'd0);
   wire place0_has_next = count > 3'd1;
   wire place1_moves = goes || (count <= 3'd1);

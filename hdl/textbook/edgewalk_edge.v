@@ -27,36 +27,36 @@ module edgewalk_edge (
   input  wire        prim_major_right,  // the major edge is the right one
   input  wire [14:0] prim_major_c,      // signed, first column right of the edge
   input  wire [15:0] prim_major_r,      // distance from the edge to that column, 2^-F column
-  input  wire [14:0] prim_major_q,      // signed, whole columns a line
+  input  wire [14:0] prim_major_q,      // signed, whole columns a line, step of c
   input  wire [15:0] prim_major_f,      // 2^-F column a line
   input  wire [14:0] prim_minor1_c,     // signed, first column right of the edge
   input  wire [15:0] prim_minor1_r,     // distance from the edge to that column, 2^-F column
-  input  wire [14:0] prim_minor1_q,     // signed, whole columns a line
+  input  wire [14:0] prim_minor1_q,     // signed, whole columns a line, step of c
   input  wire [15:0] prim_minor1_f,     // 2^-F column a line
   input  wire [14:0] prim_minor2_c,     // signed, first column right of the edge
   input  wire [15:0] prim_minor2_r,     // distance from the edge to that column, 2^-F column
-  input  wire [14:0] prim_minor2_q,     // signed, whole columns a line
+  input  wire [14:0] prim_minor2_q,     // signed, whole columns a line, step of c
   input  wire [15:0] prim_minor2_f,     // 2^-F column a line
-  input  wire [29:0] prim_z_start_a,    // UQ16.14 LSB, modular, on the left edge, first line of part 1
-  input  wire [29:0] prim_z_d_a,        // UQ16.14 LSB, modular, to the next line, part 1
-  input  wire [29:0] prim_z_start_b,    // UQ16.14 LSB, modular, on the left edge, first line of part 2
-  input  wire [29:0] prim_z_d_b,        // UQ16.14 LSB, modular, to the next line, part 2
-  input  wire [29:0] prim_z_g,          // UQ16.14 LSB, modular, to the next pixel of the span
-  input  wire [21:0] prim_r_start_a,    // UQ8.14 LSB, modular, on the left edge, first line of part 1
-  input  wire [21:0] prim_r_d_a,        // UQ8.14 LSB, modular, to the next line, part 1
-  input  wire [21:0] prim_r_start_b,    // UQ8.14 LSB, modular, on the left edge, first line of part 2
-  input  wire [21:0] prim_r_d_b,        // UQ8.14 LSB, modular, to the next line, part 2
-  input  wire [21:0] prim_r_g,          // UQ8.14 LSB, modular, to the next pixel of the span
-  input  wire [21:0] prim_g_start_a,    // UQ8.14 LSB, modular, on the left edge, first line of part 1
-  input  wire [21:0] prim_g_d_a,        // UQ8.14 LSB, modular, to the next line, part 1
-  input  wire [21:0] prim_g_start_b,    // UQ8.14 LSB, modular, on the left edge, first line of part 2
-  input  wire [21:0] prim_g_d_b,        // UQ8.14 LSB, modular, to the next line, part 2
-  input  wire [21:0] prim_g_g,          // UQ8.14 LSB, modular, to the next pixel of the span
-  input  wire [21:0] prim_b_start_a,    // UQ8.14 LSB, modular, on the left edge, first line of part 1
-  input  wire [21:0] prim_b_d_a,        // UQ8.14 LSB, modular, to the next line, part 1
-  input  wire [21:0] prim_b_start_b,    // UQ8.14 LSB, modular, on the left edge, first line of part 2
-  input  wire [21:0] prim_b_d_b,        // UQ8.14 LSB, modular, to the next line, part 2
-  input  wire [21:0] prim_b_g,          // UQ8.14 LSB, modular, to the next pixel of the span
+  input  wire [29:0] prim_z_start_a,    // UQ16.14 LSB, modular, value on the left edge, first line of part 1
+  input  wire [29:0] prim_z_d_a,        // UQ16.14 LSB, modular, step to the next line, part 1
+  input  wire [29:0] prim_z_start_b,    // UQ16.14 LSB, modular, value on the left edge, first line of part 2
+  input  wire [29:0] prim_z_d_b,        // UQ16.14 LSB, modular, step to the next line, part 2
+  input  wire [29:0] prim_z_g,          // UQ16.14 LSB, modular, step to the next pixel of the span
+  input  wire [21:0] prim_r_start_a,    // UQ8.14 LSB, modular, value on the left edge, first line of part 1
+  input  wire [21:0] prim_r_d_a,        // UQ8.14 LSB, modular, step to the next line, part 1
+  input  wire [21:0] prim_r_start_b,    // UQ8.14 LSB, modular, value on the left edge, first line of part 2
+  input  wire [21:0] prim_r_d_b,        // UQ8.14 LSB, modular, step to the next line, part 2
+  input  wire [21:0] prim_r_g,          // UQ8.14 LSB, modular, step to the next pixel of the span
+  input  wire [21:0] prim_g_start_a,    // UQ8.14 LSB, modular, value on the left edge, first line of part 1
+  input  wire [21:0] prim_g_d_a,        // UQ8.14 LSB, modular, step to the next line, part 1
+  input  wire [21:0] prim_g_start_b,    // UQ8.14 LSB, modular, value on the left edge, first line of part 2
+  input  wire [21:0] prim_g_d_b,        // UQ8.14 LSB, modular, step to the next line, part 2
+  input  wire [21:0] prim_g_g,          // UQ8.14 LSB, modular, step to the next pixel of the span
+  input  wire [21:0] prim_b_start_a,    // UQ8.14 LSB, modular, value on the left edge, first line of part 1
+  input  wire [21:0] prim_b_d_a,        // UQ8.14 LSB, modular, step to the next line, part 1
+  input  wire [21:0] prim_b_start_b,    // UQ8.14 LSB, modular, value on the left edge, first line of part 2
+  input  wire [21:0] prim_b_d_b,        // UQ8.14 LSB, modular, step to the next line, part 2
+  input  wire [21:0] prim_b_g,          // UQ8.14 LSB, modular, step to the next pixel of the span
   input  wire        line_ready,
   input  wire        fresh_queued,      // the triangle before has not reached PIXEL yet
 
@@ -71,7 +71,7 @@ module edgewalk_edge (
   output reg  [21:0] line_g,            // UQ8.14 LSB, modular
   output reg  [21:0] line_b,            // UQ8.14 LSB, modular
   output reg         line_fresh,        // first line of the triangle
-  output reg         line_fence,        // what is in flight may be of the same pixels
+  output reg         line_fence,        // fragments in flight may lie on the same pixels
   output reg  [29:0] inc_z,             // UQ16.14 LSB, modular
   output reg  [21:0] inc_r,             // UQ8.14 LSB, modular
   output reg  [21:0] inc_g,             // UQ8.14 LSB, modular
@@ -160,7 +160,7 @@ module edgewalk_edge (
 
   // The major edge.
   reg [14:0] major_c;     // signed, first column right of the edge
-  reg [14:0] major_q;     // signed, whole columns a line
+  reg [14:0] major_q;     // signed, whole columns a line, step of c
   reg [15:0] major_f;     // 2^-F column a line
   reg [16:0] major_rest;  // R - f, signed: below 0 the step carries
   wire [16:0] major_next = idle ? {1'b0, prim_major_r} - {1'b0, prim_major_f}
@@ -191,12 +191,12 @@ module edgewalk_edge (
 
   // The minor edge, and the one that takes its place at the knee.
   reg [14:0] second_c;     // signed, first column right of the edge
-  reg [14:0] second_q;     // signed, whole columns a line
+  reg [14:0] second_q;     // signed, whole columns a line, step of c
   reg [15:0] second_f;     // 2^-F column a line
   reg [16:0] second_rest;  // R - f, signed: below 0 the step carries
   wire [16:0] minor2_rest = {1'b0, prim_minor2_r} - {1'b0, prim_minor2_f};
   reg [14:0] minor_c;      // signed, first column right of the edge
-  reg [14:0] minor_q;      // signed, whole columns a line
+  reg [14:0] minor_q;      // signed, whole columns a line, step of c
   reg [15:0] minor_f;      // 2^-F column a line
   reg [16:0] minor_rest;   // R - f, signed: below 0 the step carries
   wire has_upper = |prim_n1;

@@ -8,14 +8,14 @@
 //                  └────────────────────────────────────────┘
 //
 // Formats: values and increments are modular words; a fragment takes the bits above the fraction.
-// Timing: a pixel leaves in the last of its phases. The additions for the next pixel begin in that same phase and go on
-// in the first phases of the next pixel, one channel of each adder a clock; an adder without one more rests.
-// Rules: everything stands still while a fragment waits at the output. Columns off the screen cost their phases, and give
-// no fragment.
-// Segments: the words are cut into segments, and the carry moves a segment a clock.
-//   clock   0  1  2  3        All of a segment runs a clock behind the one below it: loading, adding, and leaving.
-//   seg 0   a  b  c  d        So a segment of an addition needs only the carry of the clock before, and the bits of a
-//   seg 1      a  b  c        fragment meet again in the output stages.
+// Timing: a pixel leaves in its last phase. In that phase the additions for the next pixel begin. Each adder serves one
+// channel a clock; an adder without a channel rests.
+// Rules: the unit stalls while a fragment waits at the output. A column off the screen costs its phases and makes no
+// fragment.
+// Segments: words are cut into segments; the carry moves one segment a clock.
+//   clock   0  1  2  3        Each segment loads, adds and leaves one clock behind the segment below it.
+//   seg 0   a  b  c  d        A segment needs only the carry of the clock before.
+//   seg 1      a  b  c        The output stages bring the bits of a fragment together.
 //   seg 2         a  b
 
 `timescale 1ns / 1ps
@@ -28,14 +28,14 @@ module edgewalk_pixel (
   input  wire        span_valid,
   input  wire [14:0] span_x,         // signed, first column
   input  wire  [8:0] span_y,         // line
-  input  wire [14:0] span_count,     // pixels, at least 1
-  input  wire        span_leftward,  // towards smaller columns
+  input  wire [14:0] span_count,     // pixels of the span, at least 1
+  input  wire        span_leftward,  // 1: the span runs towards smaller columns
   input  wire [29:0] span_z,         // UQ16.14 LSB, modular
   input  wire [21:0] span_r,         // UQ8.14 LSB, modular
   input  wire [21:0] span_g,         // UQ8.14 LSB, modular
   input  wire [21:0] span_b,         // UQ8.14 LSB, modular
-  input  wire        span_fresh,     // first span of the triangle: its increments are new
-  input  wire        span_fence,     // what is in flight may be of the same pixels
+  input  wire        span_fresh,     // first span of the triangle; increments are new
+  input  wire        span_fence,     // fragments in flight may lie on the same pixels
   input  wire [29:0] inc_z,          // UQ16.14 LSB, modular
   input  wire [21:0] inc_r,          // UQ8.14 LSB, modular
   input  wire [21:0] inc_g,          // UQ8.14 LSB, modular
@@ -49,32 +49,32 @@ module edgewalk_pixel (
   output reg   [7:0] frag_r,         // unorm8
   output reg   [7:0] frag_g,         // unorm8
   output reg   [7:0] frag_b,         // unorm8
-  output reg         frag_fence,     // what is in flight may be of the same pixel
-  output reg         active,         // a span is being drawn
-  output wire        visible,        // its pixel is on the screen
-  output wire        advance,        // nothing waits at the output
-  output wire        occupied        // a fragment is in an output stage
+  output reg         frag_fence,     // fragments in flight may lie on the same pixel
+  output reg         active,         // a span is in progress
+  output wire        visible,        // the current pixel is on the screen
+  output wire        advance,        // the output is free or taken: the unit advances
+  output wire        occupied        // an output stage holds a fragment
 );
 
-  // The span being drawn.
+  // The span in progress.
   assign advance = !frag_valid || frag_ready;
-  reg [14:0] x;      // column, signed
+  reg [14:0] x;      // current column, signed
   reg [8:0] y;       // line
   reg leftward;      // towards smaller columns
-  reg [14:0] count;  // pixels left of the span, this one too
-  reg fence;         // for the next fragment
-  reg [1:0] phase;   // clock of the pixel
+  reg [14:0] count;  // pixels left in the span, current one included
+  reg fence;         // fence of the next fragment
+  reg [1:0] phase;   // clock within the pixel
   wire last_phase = &phase;
-  reg last;          // count is 1
+  reg last;          // count = 1: last pixel of the span
 
-  // Registers alone say whether the span goes on. Where it does not, one may enter; what is loaded while none comes means nothing.
+  // Registers alone decide whether the span continues. Otherwise PIXEL loads the offered span. Values loaded without a valid span are don't care.
   wire finish = active && last_phase && last;       // last clock of the span
-  wire goes_on = active && !finish;                 // the next clock is this span's too
+  wire goes_on = active && !finish;                 // the span continues in the next clock
   assign span_ready = advance && !goes_on;
   wire load = span_valid && span_ready;
   assign visible = x < 15'd640;
-  wire emit = active && last_phase && visible;      // a fragment
-  wire moves = advance && (last_phase || !active);  // another pixel, or none
+  wire emit = active && last_phase && visible;      // PIXEL makes a fragment
+  wire moves = advance && (last_phase || !active);  // the pixel changes, or PIXEL is idle
 
   always @(posedge clk) begin
     if (rst) begin
@@ -106,17 +106,17 @@ module edgewalk_pixel (
     end
   end
 
-  // The additions.
-  reg adding;                      // this pixel is not the first of its span
+  // One adder serves one channel, or several in turn.
+  reg adding;                      // the current pixel is not the first of its span
   wire add = goes_on && (last_phase || adding);
-  wire [1:0] slot = phase + 2'd1;  // channel of each adder in this clock
+  wire [1:0] slot = phase + 2'd1;  // channel that each adder serves in this clock
   wire new_increments = span_valid && span_fresh;
 
   always @(posedge clk) begin
     if (moves) adding <= goes_on;
   end
 
-  // What the segments do: what the one below did at the last advance.
+  // Each segment repeats what the segment below did at the last advance.
   reg stays1;
   reg fresh1;
   reg add1;
@@ -160,19 +160,19 @@ module edgewalk_pixel (
     end
   end
 
-  // The words of z.
+  // Value and increment of channel z.
   reg [6:0] z_value0;        // bits 6 to 0 of UQ16.14 LSB, modular
   reg [6:0] z_inc0;          // bits 6 to 0 of UQ16.14 LSB, modular
-  reg [22:0] z_value_late1;  // upper bits of the span to come
-  reg [22:0] z_inc_late1;    // upper bits of the span to come
+  reg [22:0] z_value_late1;  // upper bits of the next span
+  reg [22:0] z_inc_late1;    // upper bits of the next span
   reg [7:0] z_value1;        // bits 14 to 7 of UQ16.14 LSB, modular
   reg [7:0] z_inc1;          // bits 14 to 7 of UQ16.14 LSB, modular
-  reg [14:0] z_value_late2;  // upper bits of the span to come
-  reg [14:0] z_inc_late2;    // upper bits of the span to come
+  reg [14:0] z_value_late2;  // upper bits of the next span
+  reg [14:0] z_inc_late2;    // upper bits of the next span
   reg [6:0] z_value2;        // bits 21 to 15 of UQ16.14 LSB, modular
   reg [6:0] z_inc2;          // bits 21 to 15 of UQ16.14 LSB, modular
-  reg [7:0] z_value_late3;   // upper bits of the span to come
-  reg [7:0] z_inc_late3;     // upper bits of the span to come
+  reg [7:0] z_value_late3;   // upper bits of the next span
+  reg [7:0] z_inc_late3;     // upper bits of the next span
   reg [7:0] z_value3;        // bits 29 to 22 of UQ16.14 LSB, modular
   reg [7:0] z_inc3;          // bits 29 to 22 of UQ16.14 LSB, modular
 
@@ -203,15 +203,15 @@ module edgewalk_pixel (
     if (advance && !stays3 && fresh3) z_inc3 <= z_inc_late3;
   end
 
-  // The words of r.
+  // Value and increment of channel r.
   reg [6:0] r_value0;        // bits 6 to 0 of UQ8.14 LSB, modular
   reg [6:0] r_inc0;          // bits 6 to 0 of UQ8.14 LSB, modular
-  reg [14:0] r_value_late1;  // upper bits of the span to come
-  reg [14:0] r_inc_late1;    // upper bits of the span to come
+  reg [14:0] r_value_late1;  // upper bits of the next span
+  reg [14:0] r_inc_late1;    // upper bits of the next span
   reg [7:0] r_value1;        // bits 14 to 7 of UQ8.14 LSB, modular
   reg [7:0] r_inc1;          // bits 14 to 7 of UQ8.14 LSB, modular
-  reg [6:0] r_value_late2;   // upper bits of the span to come
-  reg [6:0] r_inc_late2;     // upper bits of the span to come
+  reg [6:0] r_value_late2;   // upper bits of the next span
+  reg [6:0] r_inc_late2;     // upper bits of the next span
   reg [6:0] r_value2;        // bits 21 to 15 of UQ8.14 LSB, modular
   reg [6:0] r_inc2;          // bits 21 to 15 of UQ8.14 LSB, modular
 
@@ -236,15 +236,15 @@ module edgewalk_pixel (
     if (advance && !stays2 && fresh2) r_inc2 <= r_inc_late2;
   end
 
-  // The words of g.
+  // Value and increment of channel g.
   reg [6:0] g_value0;        // bits 6 to 0 of UQ8.14 LSB, modular
   reg [6:0] g_inc0;          // bits 6 to 0 of UQ8.14 LSB, modular
-  reg [14:0] g_value_late1;  // upper bits of the span to come
-  reg [14:0] g_inc_late1;    // upper bits of the span to come
+  reg [14:0] g_value_late1;  // upper bits of the next span
+  reg [14:0] g_inc_late1;    // upper bits of the next span
   reg [7:0] g_value1;        // bits 14 to 7 of UQ8.14 LSB, modular
   reg [7:0] g_inc1;          // bits 14 to 7 of UQ8.14 LSB, modular
-  reg [6:0] g_value_late2;   // upper bits of the span to come
-  reg [6:0] g_inc_late2;     // upper bits of the span to come
+  reg [6:0] g_value_late2;   // upper bits of the next span
+  reg [6:0] g_inc_late2;     // upper bits of the next span
   reg [6:0] g_value2;        // bits 21 to 15 of UQ8.14 LSB, modular
   reg [6:0] g_inc2;          // bits 21 to 15 of UQ8.14 LSB, modular
 
@@ -269,15 +269,15 @@ module edgewalk_pixel (
     if (advance && !stays2 && fresh2) g_inc2 <= g_inc_late2;
   end
 
-  // The words of b.
+  // Value and increment of channel b.
   reg [6:0] b_value0;        // bits 6 to 0 of UQ8.14 LSB, modular
   reg [6:0] b_inc0;          // bits 6 to 0 of UQ8.14 LSB, modular
-  reg [14:0] b_value_late1;  // upper bits of the span to come
-  reg [14:0] b_inc_late1;    // upper bits of the span to come
+  reg [14:0] b_value_late1;  // upper bits of the next span
+  reg [14:0] b_inc_late1;    // upper bits of the next span
   reg [7:0] b_value1;        // bits 14 to 7 of UQ8.14 LSB, modular
   reg [7:0] b_inc1;          // bits 14 to 7 of UQ8.14 LSB, modular
-  reg [6:0] b_value_late2;   // upper bits of the span to come
-  reg [6:0] b_inc_late2;     // upper bits of the span to come
+  reg [6:0] b_value_late2;   // upper bits of the next span
+  reg [6:0] b_inc_late2;     // upper bits of the next span
   reg [6:0] b_value2;        // bits 21 to 15 of UQ8.14 LSB, modular
   reg [6:0] b_inc2;          // bits 21 to 15 of UQ8.14 LSB, modular
 
@@ -302,7 +302,7 @@ module edgewalk_pixel (
     if (advance && !stays2 && fresh2) b_inc2 <= b_inc_late2;
   end
 
-  // The adder of z, r, g, b.
+  // Adder of z, r, g, b.
   wire [7:0] choice = (slot == 2'd3) ? {1'b0, b_value0}
                     : (slot == 2'd2) ? {1'b0, g_value0}
                     : (slot == 2'd1) ? {1'b0, r_value0}
@@ -408,23 +408,23 @@ module edgewalk_pixel (
     if (advance && add3 && (slot3 == 2'd0)) z_value3 <= adder0_sum3;
   end
 
-  // The output: in each stage the bits of one more segment.
+  // Output: each stage completes the bits of one more segment.
   reg [18:0] out0_addr;  // line * 2^10 + column
-  reg out0_fence;        // what is in flight may be of the same pixel
+  reg out0_fence;        // fragments in flight may lie on the same pixel
   reg out0_valid;
   reg [18:0] out1_addr;  // line * 2^10 + column
   reg out1_z;            // unorm16
   reg out1_r;            // unorm8
   reg out1_g;            // unorm8
   reg out1_b;            // unorm8
-  reg out1_fence;        // what is in flight may be of the same pixel
+  reg out1_fence;        // fragments in flight may lie on the same pixel
   reg out1_valid;
   reg [18:0] out2_addr;  // line * 2^10 + column
   reg [7:0] out2_z;      // unorm16
   reg [7:0] out2_r;      // unorm8
   reg [7:0] out2_g;      // unorm8
   reg [7:0] out2_b;      // unorm8
-  reg out2_fence;        // what is in flight may be of the same pixel
+  reg out2_fence;        // fragments in flight may lie on the same pixel
   reg out2_valid;
 
   always @(posedge clk) begin

@@ -50,36 +50,36 @@ module edgewalk_setup (
   output wire        prim_major_right,  // the major edge is the right one
   output reg  [14:0] prim_major_c,      // signed, first column right of the edge
   output reg  [15:0] prim_major_r,      // distance from the edge to that column, 2^-F column
-  output reg  [14:0] prim_major_q,      // signed, whole columns a line
+  output reg  [14:0] prim_major_q,      // signed, whole columns a line, step of c
   output reg  [15:0] prim_major_f,      // 2^-F column a line
   output reg  [14:0] prim_minor1_c,     // signed, first column right of the edge
   output reg  [15:0] prim_minor1_r,     // distance from the edge to that column, 2^-F column
-  output reg  [14:0] prim_minor1_q,     // signed, whole columns a line
+  output reg  [14:0] prim_minor1_q,     // signed, whole columns a line, step of c
   output reg  [15:0] prim_minor1_f,     // 2^-F column a line
   output reg  [14:0] prim_minor2_c,     // signed, first column right of the edge
   output reg  [15:0] prim_minor2_r,     // distance from the edge to that column, 2^-F column
-  output reg  [14:0] prim_minor2_q,     // signed, whole columns a line
+  output reg  [14:0] prim_minor2_q,     // signed, whole columns a line, step of c
   output reg  [15:0] prim_minor2_f,     // 2^-F column a line
-  output reg  [29:0] prim_z_start_a,    // UQ16.14 LSB, modular, on the left edge, first line of part 1
-  output reg  [29:0] prim_z_d_a,        // UQ16.14 LSB, modular, to the next line, part 1
-  output reg  [29:0] prim_z_start_b,    // UQ16.14 LSB, modular, on the left edge, first line of part 2
-  output reg  [29:0] prim_z_d_b,        // UQ16.14 LSB, modular, to the next line, part 2
-  output reg  [29:0] prim_z_g,          // UQ16.14 LSB, modular, to the next pixel of the span
-  output reg  [21:0] prim_r_start_a,    // UQ8.14 LSB, modular, on the left edge, first line of part 1
-  output reg  [21:0] prim_r_d_a,        // UQ8.14 LSB, modular, to the next line, part 1
-  output reg  [21:0] prim_r_start_b,    // UQ8.14 LSB, modular, on the left edge, first line of part 2
-  output reg  [21:0] prim_r_d_b,        // UQ8.14 LSB, modular, to the next line, part 2
-  output reg  [21:0] prim_r_g,          // UQ8.14 LSB, modular, to the next pixel of the span
-  output reg  [21:0] prim_g_start_a,    // UQ8.14 LSB, modular, on the left edge, first line of part 1
-  output reg  [21:0] prim_g_d_a,        // UQ8.14 LSB, modular, to the next line, part 1
-  output reg  [21:0] prim_g_start_b,    // UQ8.14 LSB, modular, on the left edge, first line of part 2
-  output reg  [21:0] prim_g_d_b,        // UQ8.14 LSB, modular, to the next line, part 2
-  output reg  [21:0] prim_g_g,          // UQ8.14 LSB, modular, to the next pixel of the span
-  output reg  [21:0] prim_b_start_a,    // UQ8.14 LSB, modular, on the left edge, first line of part 1
-  output reg  [21:0] prim_b_d_a,        // UQ8.14 LSB, modular, to the next line, part 1
-  output reg  [21:0] prim_b_start_b,    // UQ8.14 LSB, modular, on the left edge, first line of part 2
-  output reg  [21:0] prim_b_d_b,        // UQ8.14 LSB, modular, to the next line, part 2
-  output reg  [21:0] prim_b_g           // UQ8.14 LSB, modular, to the next pixel of the span
+  output reg  [29:0] prim_z_start_a,    // UQ16.14 LSB, modular, value on the left edge, first line of part 1
+  output reg  [29:0] prim_z_d_a,        // UQ16.14 LSB, modular, step to the next line, part 1
+  output reg  [29:0] prim_z_start_b,    // UQ16.14 LSB, modular, value on the left edge, first line of part 2
+  output reg  [29:0] prim_z_d_b,        // UQ16.14 LSB, modular, step to the next line, part 2
+  output reg  [29:0] prim_z_g,          // UQ16.14 LSB, modular, step to the next pixel of the span
+  output reg  [21:0] prim_r_start_a,    // UQ8.14 LSB, modular, value on the left edge, first line of part 1
+  output reg  [21:0] prim_r_d_a,        // UQ8.14 LSB, modular, step to the next line, part 1
+  output reg  [21:0] prim_r_start_b,    // UQ8.14 LSB, modular, value on the left edge, first line of part 2
+  output reg  [21:0] prim_r_d_b,        // UQ8.14 LSB, modular, step to the next line, part 2
+  output reg  [21:0] prim_r_g,          // UQ8.14 LSB, modular, step to the next pixel of the span
+  output reg  [21:0] prim_g_start_a,    // UQ8.14 LSB, modular, value on the left edge, first line of part 1
+  output reg  [21:0] prim_g_d_a,        // UQ8.14 LSB, modular, step to the next line, part 1
+  output reg  [21:0] prim_g_start_b,    // UQ8.14 LSB, modular, value on the left edge, first line of part 2
+  output reg  [21:0] prim_g_d_b,        // UQ8.14 LSB, modular, step to the next line, part 2
+  output reg  [21:0] prim_g_g,          // UQ8.14 LSB, modular, step to the next pixel of the span
+  output reg  [21:0] prim_b_start_a,    // UQ8.14 LSB, modular, value on the left edge, first line of part 1
+  output reg  [21:0] prim_b_d_a,        // UQ8.14 LSB, modular, step to the next line, part 1
+  output reg  [21:0] prim_b_start_b,    // UQ8.14 LSB, modular, value on the left edge, first line of part 2
+  output reg  [21:0] prim_b_d_b,        // UQ8.14 LSB, modular, step to the next line, part 2
+  output reg  [21:0] prim_b_g           // UQ8.14 LSB, modular, step to the next pixel of the span
 );
 
   // Control: the operations one after the other, a clock each or more; in rounds where there are more jobs than lanes.

@@ -9,6 +9,7 @@ pub mod triangles;
 pub mod size;
 pub mod sweep;
 pub mod compare;
+pub mod judge;
 pub mod emit;
 pub mod vectors;
 pub mod verify;

@@ -16,13 +16,13 @@ use std::time::Duration;
 /// `--synth` and what goes with it.
 #[derive(clap::Args, Clone, Debug)]
 pub struct SynthArgs {
-    /// Synthesises every machine for a device: ice40-hx8k, ice40-up5k, ecp5-25
+    /// Synthesise every machine for a device: ice40-hx8k, ice40-up5k, ecp5-25
     #[arg(long, value_name = "TARGET")]
     synth: Option<String>,
-    /// With --synth: machine, engine (all but setup), or a unit
+    /// With --synth: machine, engine (all units but setup), or the name of a unit
     #[arg(long, value_name = "UNIT", default_value = "machine", requires = "synth")]
     synth_unit: String,
-    /// With --synth: places and routes with the seeds 1 to N
+    /// With --synth: place and route with the seeds 1 to N
     #[arg(long, default_value_t = 3, value_name = "N", requires = "synth", value_parser = clap::value_parser!(u32).range(1..=1000))]
     synth_seeds: u32,
     #[command(flatten)]
@@ -32,10 +32,10 @@ pub struct SynthArgs {
 /// How the tools of synthesis run, which changes no result.
 #[derive(clap::Args, Clone, Debug)]
 pub struct ToolArgs {
-    /// Seconds that each run of a tool may take
+    /// Time limit of each run of a tool, seconds
     #[arg(long, default_value_t = 3600, value_name = "SECONDS", value_parser = clap::value_parser!(u64).range(1..))]
     limit: u64,
-    /// Keeps results of the tools here; as `edgewalk synth` does if left out
+    /// Folder of the cache; that of `edgewalk synth` if left out
     #[arg(long, value_name = "DIR")]
     cache: Option<PathBuf>,
 }

@@ -22,7 +22,7 @@ use std::ops::Range;
 pub enum Engine {
     /// Exact coverage by integers, depth and colour in f64
     Golden,
-    /// The machine's pictures and cycles without ticking; ticks where that is not exact, and says so
+    /// The machine's pictures and cycles without ticking; ticks where that is not exact, with a note
     Fast,
     /// The machine, cycle by cycle, with counts of hazards and corners
     Model,

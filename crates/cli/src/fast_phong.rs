@@ -12,7 +12,7 @@ use std::fmt::Write as _;
 /// Options of --shading fast-phong.
 #[derive(clap::Args, Clone, Debug)]
 pub struct FastPhongArgs {
-    /// Where the quadratics of fast-phong come from [default: taylor]
+    /// Fit of the quadratics of fast-phong [default: taylor]
     #[arg(long, value_enum)]
     fit: Option<FitName>,
     /// Entries of the table of powers of fast-phong, 2 to 1048576 [default: 4096]

@@ -19,7 +19,7 @@ const DEFAULT: &str = "default";
 pub struct MachineArgs {
     #[arg(long, value_name = "FILE|PRESET", default_value = DEFAULT, global = true, help = machine_help())]
     machine: String,
-    /// Overrides one key, e.g. --set interpolator.adders=2 (repeatable; `edgewalk config print` lists the keys)
+    /// Override one key, e.g. --set interpolator.adders=2 (repeatable; `edgewalk config print` lists the keys)
     #[arg(long, value_name = "KEY=VALUE", global = true)]
     set: Vec<String>,
 }

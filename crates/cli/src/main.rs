@@ -35,8 +35,8 @@ mod verdict;
 use anyhow::{Result, anyhow};
 use clap::{Parser, Subcommand};
 use commands::{
-    bench, compare, config, demo, emit, explain, gallery, raster, render, replay, size, sweep, synth, trace,
-    vectors, verify,
+    bench, compare, config, demo, emit, explain, gallery, judge, raster, render, replay, size, sweep, synth,
+    trace, vectors, verify,
 };
 use machine_args::MachineArgs;
 use std::io::Write as _;
@@ -63,10 +63,10 @@ struct Cli {
     command: Command,
     #[command(flatten)]
     machine: MachineArgs,
-    /// Prints the report as one JSON document instead of text, and errors as JSON too
+    /// Print the report as one JSON document instead of text, and errors as JSON too
     #[arg(long, global = true)]
     json: bool,
-    /// Prints nothing but errors
+    /// Print nothing but errors
     #[arg(long, short, global = true)]
     quiet: bool,
 }
@@ -82,6 +82,7 @@ enum Command {
     Size(size::Args),
     Sweep(Box<sweep::Args>),
     Compare(compare::Args),
+    Judge(judge::Args),
     Emit(emit::Args),
     Vectors(vectors::Args),
     Verify(verify::Args),
@@ -133,6 +134,7 @@ fn run(cli: &Cli, talk: Talk) -> Result<Verdict> {
         Command::Size(a) => size::run(a, &cli.machine, talk),
         Command::Sweep(a) => sweep::run(a, &cli.machine, talk),
         Command::Compare(a) => compare::run(a, &cli.machine, talk),
+        Command::Judge(a) => judge::run(a, &cli.machine, talk),
         Command::Emit(a) => emit::run(a, &cli.machine, talk),
         Command::Vectors(a) => vectors::run(a, &cli.machine, talk),
         Command::Verify(a) => verify::run(a, &cli.machine, talk),

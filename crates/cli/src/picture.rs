@@ -64,7 +64,14 @@ pub fn write_shading_error(
     write_heat(out, name, size, &error.map, full)
 }
 
-fn write(out: &Staging, name: &str, width: u32, height: u32, pixel: impl Fn(usize) -> [u8; 3]) -> Result<()> {
+/// Writes an 8-bit PNG, pixel by pixel.
+pub fn write(
+    out: &Staging,
+    name: &str,
+    width: u32,
+    height: u32,
+    pixel: impl Fn(usize) -> [u8; 3],
+) -> Result<()> {
     let mut picture = Png::create(out, name, width, height)?;
     let line = width as usize;
     for y in 0..height as usize {

@@ -8,9 +8,9 @@ use edgewalk_scene::Scene;
 pub enum Shadows {
     /// No light casts shadows
     Off,
-    /// Depth maps of 1024 x 1024 texels: lit or not; what transmits light hides nothing
+    /// Depth maps of 1024 x 1024 texels: lit or not; glass hides nothing
     Map,
-    /// Rays: what transmits light weakens it
+    /// Rays: glass weakens the light
     Ray,
 }
 

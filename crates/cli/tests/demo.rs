@@ -34,7 +34,7 @@ fn the_demo_is_as_readme_says() {
         assert!(lines.any(|printed| printed == line), "README says `{line}`; printed is\n{printed}");
         checked += 1;
     }
-    assert!(checked >= 8, "{checked} lines");
+    assert!(checked >= 5, "{checked} lines");
     for name in ["image.png", "z_accumulator.png"] {
         let [drawn, kept] = [
             out.path().join(name),

@@ -9,7 +9,7 @@ use std::path::Path;
 use std::process::Stdio;
 
 /// A quick run of each command, as text; those with a report also come with --json.
-pub const COMMANDS: [&[&str]; 20] = [
+pub const COMMANDS: [&[&str]; 21] = [
     &["demo", "d.tri", "--out", "demo"],
     &["render", "d.tri", "--out", "render"],
     &["render", "sphere", "--engine", "golden", "--out", "shaded"],
@@ -17,6 +17,7 @@ pub const COMMANDS: [&[&str]; 20] = [
     &["explain", "d.tri", "10", "10"],
     &["raster", "d.tri", "--out", "raster"],
     &["triangles", "d.tri", "--out", "t.tri"],
+    &["judge", "d.tri", "d.png", "--color-lsb", "255"],
     &["emit", "--out", "emit"],
     &["vectors", "--suite", "hazards", "--unit", "depth", "--out", "vectors"],
     &["verify", "d.tri", "--triangles", "1", "--no-simulators", "--set", "screen.guard_bits=7"],
@@ -45,6 +46,8 @@ pub fn arguments<'a>(command: &[&'a str], json: bool) -> Vec<&'a str> {
 pub fn folder() -> tempfile::TempDir {
     let folder = tempfile::tempdir().unwrap();
     std::fs::write(folder.path().join("d.tri"), TRIANGLE).unwrap();
+    // A picture of that size, of nothing.
+    image::RgbImage::new(64, 48).save(folder.path().join("d.png")).unwrap();
     folder
 }
 

@@ -48,7 +48,7 @@ pub struct Picture {
     pub lit: Vec<Lit>,
 }
 
-/// Draws the triangles and polygons of `frame` in their order.
+/// Draws the triangles, polygons and lines of `frame` in their order.
 pub fn draw(frame: &Frame, fill: Fill) -> Picture {
     Drawing::new(frame, fill).lines(0..frame.height)
 }
@@ -57,7 +57,7 @@ pub fn draw(frame: &Frame, fill: Fill) -> Picture {
 pub struct Drawing<'a>(DrawList<'a>);
 
 impl<'a> Drawing<'a> {
-    /// Of the triangles and polygons of `frame`.
+    /// Of the triangles, polygons and lines of `frame`.
     pub fn new(frame: &'a Frame, fill: Fill) -> Self {
         Self(DrawList::new(frame, fill))
     }
@@ -88,6 +88,9 @@ impl<'a> Drawing<'a> {
                     Item::Triangle(triangle) => {
                         let plot = |f: &Fragment| pen.plot(at(f.x, f.y), f);
                         list.fill().fragments_of_lines(triangle, frame.mode, width, lines.clone(), plot);
+                    }
+                    Item::Line(line) => {
+                        line.fragments_of_lines(width, lines.clone(), |f| pen.plot(at(f.x, f.y), f));
                     }
                     Item::Polygon(table) => polygon::fragments_of_lines(table, width, lines.clone(), |f| {
                         pen.plot(at(f.x, f.y), f);

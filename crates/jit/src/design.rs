@@ -2,6 +2,8 @@
 
 use std::collections::BTreeMap;
 
+use edgewalk_netlist::netlist::Contents;
+
 use crate::graph::{Graph, ValueId};
 
 /// A design without hierarchy.
@@ -52,7 +54,7 @@ pub(crate) struct Memory {
     pub path: String,
     pub words: usize,
     pub width: u32,
-    pub init: Option<u128>,
+    pub contents: Contents,
     pub writes: Vec<Write>,
     pub reads: Vec<Read>,
 }

@@ -179,7 +179,7 @@ impl<'n> Elaboration<'n> {
                 path: format!("{}{}", self.scopes[scope].prefix, memory.name),
                 words: memory.words,
                 width: memory.width,
-                init: memory.init,
+                contents: memory.contents.clone(),
                 writes,
                 reads,
             });

@@ -130,6 +130,7 @@ fn without(design: &Design, equals: &HashMap<ValueId, ValueId>) -> Option<Design
         writes: memory.writes.iter().map(write).collect(),
         reads: memory.reads.iter().map(read).collect(),
         path: memory.path.clone(),
+        contents: memory.contents.clone(),
         ..*memory
     });
     let named = |(name, value): (&String, &ValueId)| (name.clone(), renewed(*value));

@@ -1,6 +1,5 @@
 //! The state of a running netlist; `Layout` says where everything lies in it.
 
-use edgewalk_netlist::netlist::start_word;
 use edgewalk_netlist::ops::mask;
 
 use crate::design::Design;
@@ -20,9 +19,12 @@ impl State {
         let constants = design.signals.values().filter_map(|value| constant(design, layout, *value));
         constants.for_each(|(place, value)| _ = state.set(place, value));
         for (memory, area) in design.memories.iter().zip(&layout.memories) {
-            if memory.init != Some(0) {
-                let word = |index| start_word(memory.init, memory.width, index);
-                (0..area.words).for_each(|index| state.set_word(*area, index, word(index)));
+            let word = |address| memory.contents.word(memory.width, address);
+            match memory.contents.others {
+                Some(0) => {
+                    memory.contents.rows.keys().for_each(|row| state.set_word(*area, *row, word(*row)))
+                }
+                _ => (0..area.words).for_each(|address| state.set_word(*area, address, word(address))),
             }
         }
         state.wake(layout, wakes, u64::MAX);

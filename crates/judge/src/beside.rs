@@ -136,7 +136,11 @@ impl Subject<'_> {
         let comparison = beside(machine, frame, golden, proved, draw, |lines| {
             match &mut report {
                 Some(report) => report.add(lines.drawn),
-                None => report = Some(Report::new(name, triangles, machine, lines.drawn, waits)),
+                None => {
+                    let mut first = Report::new(name, triangles, machine, lines.drawn, waits);
+                    first.drawn.lines = frame.lines.len() as u64;
+                    report = Some(first);
+                }
             }
             see(lines)
         })?;

@@ -27,10 +27,11 @@ use edgewalk_host::reach::Reach;
 use edgewalk_host::shade::Proof;
 use edgewalk_machine::Plan;
 use edgewalk_scene::{Blending, Frame};
-use layers::Layers;
+pub(crate) use layers::Layers;
 pub use layers::{Blended, Errors};
 pub use lit::{Lights, Lit, Seen};
-use order::{Orders, Over};
+use order::Orders;
+pub(crate) use order::{Over, all_over};
 use serde::Serialize;
 
 /// What the comparison found.

@@ -11,6 +11,7 @@ pub mod verdict;
 pub mod shaded;
 pub mod compare;
 pub mod beside;
+pub mod outside;
 pub mod passes;
 pub mod setup_report;
 pub mod occupancy;

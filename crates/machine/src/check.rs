@@ -18,6 +18,7 @@ pub const MAP_BITS: u32 = 32;
 /// that would do: the first rule that is broken.
 pub(crate) fn check(machine: &Machine, channels: &[Channel]) -> Result<(), MachineError> {
     screen(machine)?;
+    lines(machine)?;
     for channel in channels {
         formats(machine, channel)?;
     }
@@ -105,6 +106,23 @@ fn screen(machine: &Machine) -> Result<(), MachineError> {
         ));
     }
     Ok(())
+}
+
+/// Lines want half a pixel, a rule that counts centres, and nobody who walks down only.
+fn lines(machine: &Machine) -> Result<(), MachineError> {
+    let refusal =
+        |reason: &str| Err(MachineError::rule(machine, "polygon.lines", reason.to_owned(), "no".to_owned()));
+    if !machine.polygon.has_lines() {
+        Ok(())
+    } else if machine.fill == Fill::Textbook {
+        refusal("a line wants edge.fill = exact, which counts the centres of pixels")
+    } else if machine.subpixel_bits == 0 {
+        refusal("lines need screen.subpixel_bits of 1 or more, as one begins half a pixel beside its end")
+    } else if machine.shade.is_there() {
+        refusal("TERM walks down only, and a line may go up; lines need shade.kind = none")
+    } else {
+        Ok(())
+    }
 }
 
 /// A screen with sides of so many pixels, or a map that the machine draws.

@@ -9,6 +9,7 @@ use crate::channel::{MAX_CHANNELS, Precision};
 use crate::extra::ExtraChannel;
 use crate::key::Domain::{OneOf, Range};
 use crate::key::{Domain, Key, number, word};
+use crate::polygon::Polygon;
 use crate::shade::Shade;
 use crate::shadow::Shadow;
 
@@ -71,6 +72,8 @@ pub struct Machine {
     pub adders: u32,
     /// Segments D of each adder: 1, 2 or 4.
     pub segments: u32,
+    /// Lines beside triangles.
+    pub polygon: Polygon,
     /// Setup lanes, each with one pair of quotient and remainder: 1, 2 or 4.
     pub lanes: u32,
     /// Depth of the span FIFO, spans.
@@ -124,6 +127,7 @@ impl Default for Machine {
             extra: 0,
             adders: 4,
             segments: 1,
+            polygon: Polygon::default(),
             lanes: 4,
             span_fifo: 2,
             inflight: 4,

@@ -85,7 +85,7 @@ pub struct UnitSpec {
 
 /// The input by which a pass is the light's own, of the units that ask for it.
 pub(crate) fn light_pass(plan: &Plan) -> Option<Field> {
-    let doc = "the map is drawn, not the picture";
+    let doc = "1: draw the light's map, 0: draw the picture";
     plan.shadow.draws_map().then(|| Field::count("light_pass", 1, doc))
 }
 

@@ -3,7 +3,7 @@
 
 mod lane;
 
-use crate::common::{Triangle, moved, random_machine, random_triangle};
+use crate::common::{Triangle, any_triangle, random_machine};
 use edgewalk_machine::{Channel, EdgeKind, Fill, MAX_CHANNELS, Machine, Plan};
 use edgewalk_model::setup::Setup;
 use edgewalk_model::tokens::{EdgeWalk, Prim, sign_extend};
@@ -332,33 +332,6 @@ fn ticked(setup: &mut Setup<MAX_CHANNELS>, triangle: &Triangle) -> (u32, Option<
         setup.step(None, true, false, events);
     }
     (cycles, prim)
-}
-
-/// Triangles of every size and place, degenerate ones among them.
-fn any_triangle(plan: &Plan, rng: &mut StdRng) -> Triangle {
-    let size = 2f64.powf(rng.random_range(-3.0..f64::from(plan.guard_bits) + 1.0));
-    let mut triangle = random_triangle(plan, size, rng);
-    let limit = ((1i32 << plan.guard_bits) - 1) << plan.subpixel_bits;
-    for corner in &mut triangle {
-        if rng.random_bool(0.05) {
-            let x = rng.random_range(-limit..=limit);
-            let y = rng.random_range(-limit..=limit);
-            *corner = moved(plan, corner, x, y);
-        }
-    }
-    match rng.random_range(0..16) {
-        0 => triangle[1] = triangle[0],
-        1 => triangle[2] = moved(plan, &triangle[2], triangle[2].x(), triangle[1].y()),
-        2 => triangle[1] = moved(plan, &triangle[1], triangle[1].x(), triangle[0].y()),
-        3 => triangle[2] = moved(plan, &triangle[2], triangle[0].x(), triangle[2].y()),
-        4 => {
-            let middle = |a: i32, b: i32| a + (b - a) / 2;
-            let [a, b, _] = triangle;
-            triangle[2] = moved(plan, &a, middle(a.x(), b.x()), middle(a.y(), b.y()));
-        }
-        _ => {}
-    }
-    triangle
 }
 
 #[derive(Default)]

@@ -125,6 +125,34 @@ pub enum Fault {
         /// Address bits.
         addr_bits: u32,
     },
+    /// Contents beyond a memory's last word.
+    #[error("memory `{name}` has {words} words: there is no word {address} to hold anything")]
+    NoWord {
+        /// Its name.
+        name: String,
+        /// Words.
+        words: usize,
+        /// The address given.
+        address: usize,
+    },
+    /// A word that was given contents twice.
+    #[error("word {address} of memory `{name}` is given contents twice")]
+    WordTwice {
+        /// The memory's name.
+        name: String,
+        /// The word's address.
+        address: usize,
+    },
+    /// A memory without a write port that has words without contents.
+    #[error(
+        "nothing writes memory `{name}`, but word {word} has no contents: every word of a ROM needs them"
+    )]
+    UnknownWord {
+        /// Its name.
+        name: String,
+        /// The first word without contents.
+        word: usize,
+    },
     /// A signal that depends on itself without a register between.
     #[error("combinational loop: {}", path.join(" -> "))]
     Loop {

@@ -32,8 +32,10 @@ enum Change {
     NeverUpdate { register: usize, update: usize },
     /// The reset value of a register, or none.
     Reset(usize, Option<u128>),
-    /// The initial value of a memory.
-    Init(usize, u128),
+    /// Every word of a memory that has no contents of its own, at the start.
+    Others(usize, u128),
+    /// The word at an address of a memory, at the start.
+    Row { memory: usize, address: usize, word: u128 },
     /// Two inputs of an instance are exchanged.
     Exchange { instance: usize, inputs: [usize; 2] },
 }
@@ -41,7 +43,8 @@ enum Change {
 /// All mutants of a netlist and of every module in it, those of the innermost first.
 pub fn mutants(netlist: &Arc<Netlist>) -> Vec<Mutant> {
     let of = |module: &Arc<Netlist>| {
-        let changes = operators(module).into_iter().chain(registers(module)).chain(structure(module));
+        let changes = operators(module).into_iter().chain(registers(module));
+        let changes = changes.chain(contents(module)).chain(exchanges(module));
         let name = module.name.clone();
         let mutant = move |(description, change)| Mutant { module: name.clone(), description, change };
         changes.map(mutant).collect::<Vec<_>>()
@@ -129,7 +132,11 @@ impl Change {
                 netlist.registers[*register].updates.remove(*update);
             }
             Change::Reset(register, value) => netlist.registers[*register].reset = *value,
-            Change::Init(memory, value) => netlist.memories[*memory].init = Some(*value),
+            Change::Others(memory, value) => netlist.memories[*memory].contents.others = Some(*value),
+            Change::Row { memory, address, word } => {
+                let row = netlist.memories[*memory].contents.rows.get_mut(address);
+                row.into_iter().for_each(|row| row.word = *word);
+            }
             Change::Exchange { instance, inputs: [one, two] } => {
                 netlist.instances[*instance].connections.swap(*one, *two);
             }
@@ -269,13 +276,27 @@ fn registers(netlist: &Netlist) -> Vec<(String, Change)> {
     found
 }
 
-fn structure(netlist: &Netlist) -> Vec<(String, Change)> {
+/// Another word in all of a memory, and another bit in each word that has contents of its own.
+fn contents(netlist: &Netlist) -> Vec<(String, Change)> {
     let mut found = Vec::new();
-    for (index, memory) in netlist.memories.iter().enumerate() {
-        let Some(init) = memory.init else { continue };
-        let text = format!("`{}` starts with {} instead of {init}", memory.name, init ^ 1);
-        found.push((text, Change::Init(index, init ^ 1)));
+    for (memory, of) in netlist.memories.iter().enumerate() {
+        if let Some(word) = of.contents.others {
+            let text = format!("`{}` starts with {} instead of {word}", of.name, word ^ 1);
+            found.push((text, Change::Others(memory, word ^ 1)));
+        }
+        for (address, row) in &of.contents.rows {
+            for bit in 0..of.width {
+                let word = row.word ^ 1 << bit;
+                let text = format!("bit {bit} of word {address} of `{}` is {}", of.name, word >> bit & 1);
+                found.push((text, Change::Row { memory, address: *address, word }));
+            }
+        }
     }
+    found
+}
+
+fn exchanges(netlist: &Netlist) -> Vec<(String, Change)> {
+    let mut found = Vec::new();
     for (index, instance) in netlist.instances.iter().enumerate() {
         let module = &instance.module;
         // Only inputs with a register behind them: there is no loop to make.

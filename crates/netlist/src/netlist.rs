@@ -1,5 +1,6 @@
 //! A finished module: what the builder made and the checks passed. Every index in it is valid, every driver present.
 
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use crate::ops::Op;
@@ -166,20 +167,42 @@ pub struct Memory {
     pub words: usize,
     /// Bits of a word.
     pub width: u32,
-    /// Every word at the start; `None`: unknown, nobody reads a word before it is written. See [`start_word`].
-    pub init: Option<u128>,
-    /// Write ports; of two writes to one address the later port wins.
+    /// Its words at the start. A reset does not bring them back: a word that was written stays as written.
+    pub contents: Contents,
+    /// Write ports; of two writes to one address the later port wins. A memory without one is a ROM: the contents of all its words
+    /// are known.
     pub writes: Vec<MemoryWrite>,
     /// Read ports.
     pub reads: Vec<MemoryRead>,
 }
 
-/// Word `index` of a memory with words of so many bits, at the start. Of one that nobody is to read yet each is another number
-/// here, so that a netlist which does read it is seen to; in Verilog it is unknown.
-pub fn start_word(init: Option<u128>, width: u32, index: usize) -> u128 {
-    /// 2^128 over the golden ratio: multiples of it are spread evenly.
-    const SPREAD: u128 = 0x9e37_79b9_7f4a_7c15_f39c_c060_5ced_c835;
-    init.unwrap_or_else(|| (index as u128 + 1).wrapping_mul(SPREAD) >> (128 - width))
+/// The words of a memory at the start.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Contents {
+    /// Every word that is not among `rows`; `None`: unknown, nobody reads such a word before it is written.
+    pub others: Option<u128>,
+    /// Words of their own by their address: constants in a RAM, or all of a ROM.
+    pub rows: BTreeMap<usize, Row>,
+}
+
+/// A word of its own in a memory.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Row {
+    /// Below 2^width.
+    pub word: u128,
+    /// What it is, or empty.
+    pub doc: String,
+}
+
+impl Contents {
+    /// Word `address` of a memory with words of so many bits. Of unknown words each is another number here, so that a netlist
+    /// that reads one is seen to; in Verilog it is unknown.
+    pub fn word(&self, width: u32, address: usize) -> u128 {
+        /// 2^128 over the golden ratio: multiples of it are spread evenly.
+        const SPREAD: u128 = 0x9e37_79b9_7f4a_7c15_f39c_c060_5ced_c835;
+        let spread = || (address as u128 + 1).wrapping_mul(SPREAD) >> (128 - width);
+        self.rows.get(&address).map(|row| row.word).or(self.others).unwrap_or_else(spread)
+    }
 }
 
 /// At the clock, if `en`: word `addr` := `data`.

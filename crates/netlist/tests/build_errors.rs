@@ -164,9 +164,9 @@ fn two_modules_of_one_name() {
 #[test]
 fn memories_that_can_not_be() {
     let found = messages(|m| {
-        m.memory("none", 4, 0, 8);
-        m.memory("far", 4, 17, 8);
-        m.memory("near", 4, 8, 8);
+        m.memory("none", 4, 0, 8).starts(0);
+        m.memory("far", 4, 17, 8).starts(0);
+        m.memory("near", 4, 8, 8).starts(0);
         m.memory("full", 4, 16, 8).starts(256);
     });
     assert_eq!(
@@ -176,6 +176,25 @@ fn memories_that_can_not_be() {
             "memory `far`: 17 words with an address of 4 bits",
             "memory `near`: 8 words with an address of 4 bits",
             "256 does not fit in 8 bits",
+        ]
+    );
+}
+
+#[test]
+fn contents_that_can_not_be() {
+    let found = messages(|m| {
+        let rom = m.memory("rom", 2, 4, 8).holds(0, 1, "").holds(1, 256, "").holds(1, 2, "").holds(4, 0, "");
+        m.output("q", rom.read(m.lit(1, 1), m.input("addr", 2)));
+        let full = m.memory("full", 1, 2, 8).holds(1, 3, "").starts(0);
+        m.output("p", full.read(m.lit(1, 1), m.input("low", 1)));
+    });
+    assert_eq!(
+        found,
+        [
+            "256 does not fit in 8 bits",
+            "word 1 of memory `rom` is given contents twice",
+            "memory `rom` has 4 words: there is no word 4 to hold anything",
+            "nothing writes memory `rom`, but word 2 has no contents: every word of a ROM needs them",
         ]
     );
 }

@@ -90,6 +90,45 @@ fn a_mutant_still_is_a_netlist_of_shared_modules() {
     }
 }
 
+/// A RAM with a row of its own, read and written by turns, and a ROM.
+fn contents() -> Arc<Netlist> {
+    let m = Module::new("contents", "");
+    let (load, a, b) = (m.input("load", 1), m.input("a", 2), m.input("b", 3));
+    let ram = m.memory("ram", 2, 3, 3).holds(1, 5, "five").write(load, a, b);
+    let rom = m.memory("rom", 1, 2, 2).holds(0, 2, "").holds(1, 1, "");
+    m.output("ram_q", ram.read(!load, a));
+    m.output("rom_q", rom.read(load, b.bit(2)));
+    m.finish().unwrap()
+}
+
+#[test]
+fn every_bit_of_contents_is_a_mutant() {
+    let original = contents();
+    let of_contents = |text: &str| text.starts_with("bit ");
+    let mutants: Vec<Mutant> =
+        mutants(&original).into_iter().filter(|mutant| of_contents(&mutant.description)).collect();
+    let texts: Vec<&str> = mutants.iter().map(|mutant| mutant.description.as_str()).collect();
+    assert_eq!(texts[..2], ["bit 0 of word 1 of `ram` is 0", "bit 1 of word 1 of `ram` is 1"]);
+    assert_eq!(texts[6], "bit 1 of word 1 of `rom` is 1");
+    assert_eq!(texts.len(), 3 + 2 * 2);
+    for mutant in mutants {
+        let (faulty, mut differ) = (mutant.apply(&original), Vec::new());
+        let mut sims = [Simulator::new(&original), Simulator::new(&faulty)];
+        // Both words of the ROM, then the row of the RAM.
+        for (load, a, b) in [(1, 0, 0), (1, 0, 4), (0, 1, 0)] {
+            let shown = sims.each_mut().map(|sim| {
+                [("load", load), ("a", a), ("b", b)]
+                    .iter()
+                    .for_each(|(name, value)| sim.set_input(name, *value).unwrap());
+                sim.tick();
+                (sim.get("ram_q").unwrap(), sim.get("rom_q").unwrap())
+            });
+            differ.push(shown[0] != shown[1]);
+        }
+        assert!(differ.contains(&true), "{}", mutant.description);
+    }
+}
+
 /// The fault of that description.
 fn fault(netlist: &Arc<Netlist>, description: &str) -> Mutant {
     let all = mutants(netlist);

@@ -6,13 +6,16 @@ use std::sync::Arc;
 
 use edgewalk_netlist::{FstTrace, Labels, Module, Netlist, Simulator, VcdTrace};
 
-/// Two counters of different width, one inside an instance inside an instance.
+/// Two counters of different width, one inside an instance inside an instance, each with a ROM that follows it.
 fn counters() -> Arc<Netlist> {
     let counter = |name: &str, width| {
         let m = Module::new(name, "");
         let step = m.input("step", 1);
         let count = m.reg("count", width).reset(0);
         count.when(step, count.q() + m.constant("ONE", width, 1));
+        let rom = m.memory("rom", 3, 8, 6);
+        (0..8).for_each(|row| _ = rom.holds(row as usize, row * row, "a square"));
+        m.output("square", rom.read(step, count.q().trunc(3)));
         m.output("q", count);
         m.finish().unwrap()
     };
@@ -32,7 +35,7 @@ fn counters() -> Arc<Netlist> {
 const CYCLES: u64 = 40;
 
 /// Runs the counters; `sample` sees every cycle. Returns what some signals were, by cycle.
-fn run(mut sample: impl FnMut(&mut Simulator)) -> Vec<[u128; 3]> {
+fn run(mut sample: impl FnMut(&mut Simulator)) -> Vec<[u128; 4]> {
     let mut sim = Simulator::new(&counters());
     (0..CYCLES)
         .map(|cycle| {
@@ -53,7 +56,7 @@ const LABELS: [Labels; 1] = [Labels {
 }];
 
 /// The name beside a signal: text, or a character a byte.
-fn names(wave: &mut wellen::simple::Waveform, expected: &[[u128; 3]]) {
+fn names(wave: &mut wellen::simple::Waveform, expected: &[[u128; 4]]) {
     let scopes = ["top", "u_middle", "u_small"];
     let variable = wave.hierarchy().lookup_var(&scopes, "count_name").expect("a name beside the count");
     let signal = wave.hierarchy()[variable].signal_ref();
@@ -77,9 +80,9 @@ fn names(wave: &mut wellen::simple::Waveform, expected: &[[u128; 3]]) {
     assert!(wave.hierarchy().lookup_var(&scopes, "count").is_some());
 }
 
-const WATCHED: [&str; 3] = ["step", "u_middle.u_small.count", "u_large.count"];
+const WATCHED: [&str; 4] = ["step", "u_middle.u_small.count", "u_large.count", "u_middle.u_small.rom_q"];
 
-fn check(file: Vec<u8>, expected: &[[u128; 3]]) {
+fn check(file: Vec<u8>, expected: &[[u128; 4]]) {
     let mut wave = wellen::simple::read_from_reader(Cursor::new(file)).unwrap();
     let paths = WATCHED.map(|path| format!("top.{path}"));
     let mut compared = 0;
@@ -104,7 +107,7 @@ fn check(file: Vec<u8>, expected: &[[u128; 3]]) {
             compared += 1;
         }
     }
-    assert_eq!(compared, 4 * 2 * CYCLES);
+    assert_eq!(compared, 5 * 2 * CYCLES);
     names(&mut wave, expected);
     assert_eq!(*wave.time_table().last().unwrap(), CYCLES * 10, "the last cycle has its length");
 }

@@ -18,17 +18,19 @@ use crate::wires::{Part, parts};
 use prepare::Old;
 use stages::Stages;
 
-const DOC: &str = "BLEND weighs the colour of a fragment against that of its pixel, or adds it.
+const DOC: &str = "BLEND mixes the colour of a fragment with the colour of its pixel, or adds the two.
 
             ┌────────────── crd (address) ──> colour memory
   pass ─────┴─> [queue] ── base, weight ─> [stage] ─> [w] ── cwr ──> colour memory
            colour memory ── cdata ──┘
 
-Formats: colours unsigned; kt as 0 to 2^kt_bits, so that 1 is exact. base is the old colour B, and weight 1 - kt, 0 to 1 without 1:
-a fragment's colour I becomes base + (I - base) * weight, to nearest. Of a fragment with kt = 0 base is I; of a sum base is
-I + B, at most all ones, and weight 0.
-Rules: a fragment with kt = 0 that is not added needs no old colour, and reads none. Colours come in the order of the reads.
-blend_add stays as it is while the machine is busy.";
+Formats: colours unsigned; kt from 0 to 2^kt_bits, which is exactly 1.
+Mixing: with old colour B and own colour I the result is base + (I - base) * weight, to nearest.
+  mix           base = B, weight = 1 - kt, from 0 to below 1
+  mix, kt = 0   base = I
+  add           base = I + B, saturated, weight = 0
+Rules: a fragment that is mixed with kt = 0 reads no old colour. Colours arrive in the order of the reads. blend_add is
+stable while the machine is busy.";
 
 /// The netlist of BLEND.
 ///
@@ -44,13 +46,17 @@ pub fn blend(plan: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
     let memory = ports.memory("color");
     let cwr_ready = ports.gives_ready();
 
-    m.comment("State: what is being mixed, the queue of what waits for its old colour, and the pixel being written.");
+    m.comment("State: the stages, the queue of fragments that wait for their old colours, and the write register w.");
     let mut carried = parts(&tokens::color_write(plan));
     carried.retain(|part| part.name != "rgb");
     let stages = Stages::new(&m, plan, carried);
     let mut entry = pass.parts();
     entry.retain(|part| part.name != "fence");
-    entry.push(Part { name: "need".to_owned(), width: 1, doc: "takes its pixel's colour".to_owned() });
+    entry.push(Part {
+        name: "need".to_owned(),
+        width: 1,
+        doc: "the fragment needs the old colour".to_owned(),
+    });
     let shape = Shape {
         memory: "color",
         hazard: plan.blend.hazard,
@@ -58,18 +64,18 @@ pub fn blend(plan: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
         entry,
         writes: None,
         stages: stages.in_flight(),
-        ways: &[("cwr", "a pixel is being written")],
+        ways: &[("cwr", "w holds a pixel to write")],
         write: ("cwr", parts(&ports.gives_link().fields)),
     };
     let flight = Rmw::new(&m, &ports, shape);
 
     m.comment(
-        "A fragment enters when the queue has room and nothing in flight may change the colour it needs.",
+        "A fragment enters when the queue has room and no fragment in flight may change the colour that it needs.",
     );
-    let need = (blend_add | pass["kt"].any()).named_doc("need", "it takes its pixel's colour");
+    let need = (blend_add | pass["kt"].any()).named_doc("need", "the fragment needs the old colour");
     let enter = flight.enter(pass_valid, &pass, Some(need), memory.read_ready);
 
-    m.comment("The head leaves when its old colour comes and the first stage is free.");
+    m.comment("The head leaves when its old colour arrives and the first stage is free.");
     let w_free = flight.w_free(&[cwr_ready]);
     let flow = stages.flow(w_free);
     let take = flight.turn(memory.data_valid, flow.room, "take");
@@ -77,7 +83,7 @@ pub fn blend(plan: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
     let prepared = old.prepare(&m, plan, |f| flight.head(f));
     let rgb = stages.step(&flow, take.fires, &prepared, |f| flight.head(f)).named("rgb");
 
-    m.comment("Write what is mixed.");
+    m.comment("Write the blended colour.");
     let leaves = Leaves { ready: cwr_ready, wanted: m.lit(1, 1) };
     let leaving = |f: &str| if f == "rgb" { rgb } else { stages.leaving(f) };
     flight.write(w_free, flow.leaves, &[leaves], leaving);

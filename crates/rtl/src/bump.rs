@@ -16,13 +16,13 @@ const DOC: &str = "BUMP turns the normal of a fragment by the slopes of a relief
 
   frag ─> [K1: bu * u, bv * v of each cosine] ─> [K2: cosine + both] ─> bumped
 
-Formats: bu, bv signed, 2^(bits-1) for the relief's largest slope; cosines and their u and v signed, of one unit. Sums are exact; a
-cosine is cut where its bits end.
-Timing: a fragment a clock, offered two clocks after it was taken. All stages move together.
-Rules: none; it keeps nothing from fragment to fragment.";
+Formats: bu and bv are signed, 2^(bits-1) for the relief's largest slope. Cosines and their u and v are signed, in one unit.
+Sums are exact; a cosine saturates at the ends of its range.
+Timing: a fragment a clock, offered two clocks after it was taken. All stages advance together.
+Rules: fragments are independent of each other.";
 
-const SQUARE_DOC: &str = "With NORMAL behind: K1 has bu * bu, bu * bv, bv * bv too, K2 their products with tuu, tuv and tvv, and K3 the sum of
-these with nn, N.N of the turned normal, 2^16 for 1.0; a fragment is offered three clocks after it was taken.";
+const SQUARE_DOC: &str = "With NORMAL behind: K1 also makes bu * bu, bu * bv and bv * bv. K2 multiplies them by tuu, tuv and tvv. K3 adds nn and makes
+N.N of the turned normal, 2^16 for 1.0. A fragment is offered three clocks after it was taken.";
 
 /// N.N, and what it is when the normal has turned.
 const SQUARE: &str = "nn";
@@ -42,7 +42,7 @@ pub fn bump(plan: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
     let (frag_valid, frag) = ports.takes();
     let bumped_ready = ports.gives_ready();
 
-    m.comment("The stages, and what goes through them as it is.");
+    m.comment("Stages, and the fields that pass through them unchanged.");
     let given = parts(&tokens::bumped(plan));
     let of_lights = &plan.terms()[..2 * plan.shade.lights as usize];
     let is_cosine = |part: &Part| of_lights.iter().any(|term| term.name == part.name);
@@ -56,7 +56,7 @@ pub fn bump(plan: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
     let stages: Vec<Stage<'_>> =
         lists.into_iter().zip(["k1", "k2", "k3"]).map(|(kept, name)| Stage::new(&m, name, kept)).collect();
     let last = stages[stages.len() - 1].valid.q();
-    let advance = (!last | bumped_ready).named_doc("advance", "all stages move on");
+    let advance = (!last | bumped_ready).named_doc("advance", "all stages advance");
     let kept = fill(&stages, advance, frag_valid, &frag);
     let occupied = stages.iter().map(|stage| stage.valid.q()).reduce(|any, one| any | one).unwrap_or(last);
 
@@ -86,7 +86,7 @@ struct Stage<'m> {
 
 impl<'m> Stage<'m> {
     fn new(m: &'m Module, name: &str, kept: Vec<Part>) -> Stage<'m> {
-        let valid = m.reg(&format!("{name}_valid"), 1).doc("a fragment is in this stage").reset(0);
+        let valid = m.reg(&format!("{name}_valid"), 1).doc("the stage holds a fragment").reset(0);
         Stage { valid, kept: Registers::new(m, name, kept) }
     }
 }

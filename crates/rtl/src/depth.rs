@@ -1,4 +1,4 @@
-//! DEPTH: reads the old depth of every fragment, compares, and writes what passes.
+//! DEPTH: reads the old depth of every fragment, compares, and writes a fragment that passes.
 
 use std::sync::Arc;
 
@@ -10,19 +10,21 @@ use crate::ports::Interface;
 use crate::rmw::{self, Leaves, Rmw, Shape, Way};
 use crate::wires::parts;
 
-const DOC: &str = "DEPTH reads the old depth of every fragment, compares, and writes what passes.
+const DOC: &str = "DEPTH reads the old depth of every fragment, compares, and writes a fragment that passes.
 
            ┌──────────────── rd (address) ──> depth memory
   frag ────┴─> [in-flight queue] ─┬─ compare ─> [w] ── wr ──> depth and frame memory
            depth memory ── data ──┘
 
 Formats: unsigned depths; depth_func 0 never, 1 less, 2 equal, 3 lequal, 4 greater, 5 notequal, 6 gequal, 7 always.
-Timing: a fragment is read in the cycle it comes, compared in the cycle its old depth comes, written in the next.
-Rules: depths come in the order of the reads. depth_func and depth_write stay as they are while the machine is busy.
-The depth is read whatever the function.";
+Timing: the read leaves in the cycle in which a fragment enters. The compare takes place in the cycle in which the old
+depth arrives. The write follows one cycle later.
+Rules: depths arrive in the order of the reads. depth_func and depth_write are stable while the machine is busy.
+Every fragment reads, whatever the function.";
 
-const FORK_DOC: &str = "With BLEND w parts: its depth goes to the depth memory by zwr, the rest to BLEND by pass, each by itself. Only what may go to
-the depth memory counts as in flight. The fence of a fragment that BLEND does not see goes to the next that it does.";
+const FORK_DOC: &str = "With BLEND w has two outputs: zwr takes the depth to its memory, pass takes the fragment to BLEND. Each waits by itself.
+A fragment counts as in flight only while it may still write a depth. If a fragment never reaches BLEND, the next one that
+does takes over its fence.";
 
 /// The netlist of DEPTH.
 ///
@@ -48,19 +50,19 @@ pub fn depth(plan: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
         .chain([ports.gives_ready()])
         .collect();
 
-    m.comment("State: the queue of what waits for its old depth, and the pixel being written.");
+    m.comment("State: the queue of fragments that wait for their old depths, and the write register w.");
     let flight = Rmw::new(&m, &ports, shape(plan, &ports, depth_write));
-    let pend_fence =
-        forks.then(|| m.reg("pend_fence", 1).doc("of fragments that BLEND has not seen").reset(0));
+    let pend_fence = forks
+        .then(|| m.reg("pend_fence", 1).doc("a fence to hand on: its fragment never reaches BLEND").reset(0));
 
-    m.comment("A fragment enters when the queue has room and nothing in flight may change its depth.");
+    m.comment("A fragment enters when the queue has room and no fragment in flight may change its depth.");
     let enter = flight.enter(frag_valid, &frag, None, memory.read_ready);
 
-    m.comment("Compare the head with its old depth when that comes and w is free.");
+    m.comment("Compare the head with its old depth when the depth arrives and w is free.");
     let w_free = flight.w_free(&ready);
     let compare = flight.turn(memory.data_valid, w_free, "compare");
     let new = flight.head("z");
-    let old = flight.old("z", &memory.data).named_doc("old", "depth to compare with");
+    let old = flight.old("z", &memory.data).named_doc("old", "old depth of the head");
     let equal = new.eq(old).named("equal");
     // The three bits of depth_func are the three outcomes that pass: greater, equal, less.
     let [greater_passes, equal_passes, less_passes] = [2, 1, 0].map(|bit| depth_func.bit(bit));
@@ -68,25 +70,25 @@ pub fn depth(plan: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
     let (if_less, if_not) = match flight.behind_w("z", &frag) {
         None => (less_passes, unless_less),
         Some((after_w, next)) => {
-            m.comment("What w has just been filled with met the head a clock ahead: only the outcome is left to choose.");
+            m.comment("w and the head were compared while w was loaded; here only the outcome is selected.");
             let next_less = next.lt(new).named("next_less");
             let next_equal = next.eq(new).named("next_equal");
             let outcome = next_less.mux(less_passes, next_equal.mux(equal_passes, greater_passes));
-            let passes_w = m.reg("passes_w", 1).doc("the head against what w holds").set(outcome).q();
+            let passes_w = m.reg("passes_w", 1).doc("outcome of the head against w").set(outcome).q();
             (after_w.mux(passes_w, less_passes), after_w.mux(passes_w, unless_less))
         }
     };
-    let if_less = if_less.named_doc("if_less", "it passes if it is less");
-    let if_not = if_not.named_doc("if_not", "and if it is not");
+    let if_less = if_less.named_doc("if_less", "the head passes if its depth is less");
+    let if_not = if_not.named_doc("if_not", "the head passes if its depth is not less");
     m.comment(
-        "pass = less ? if_less : if_not, as the top bits of the difference: nothing stands behind its carry.",
+        "pass = less ? if_less : if_not. The top bits of the difference make it, so no logic follows the carry.",
     );
     let (may, must) = (if_less | if_not, if_less & if_not);
     let inverts = !if_less | if_not;
     let pass = m.cat(&[inverts, may, new]) - m.cat(&[m.lit(1, 0), !must, old]);
     let pass = pass.named("outcome").msb().named("pass");
 
-    m.comment("Write what passes.");
+    m.comment("Write a fragment that passes.");
     let wanted = match color_write {
         None => vec![pass],
         Some(color_write) => vec![pass & depth_write, pass & color_write],
@@ -121,11 +123,11 @@ fn shape<'m>(plan: &Plan, ports: &Interface<'m>, depth_write: Signal<'m>) -> Sha
     let taken = parts(&ports.takes_link().fields);
     let without_fence = taken.iter().filter(|part| part.name != "fence").cloned().collect();
     let (entry, ways, write): (_, &[Way], _) = if plan.blend.is_there() {
-        let ways = &[("zwr", "a depth is being written"), ("pass", "a fragment waits for BLEND")];
+        let ways = &[("zwr", "w holds a depth to write"), ("pass", "w holds a fragment for BLEND")];
         (taken.clone(), ways, ("w", taken))
     } else {
         let write = parts(&ports.gives_link().fields);
-        (without_fence, &[("wr", "a pixel is being written")], ("wr", write))
+        (without_fence, &[("wr", "w holds a pixel to write")], ("wr", write))
     };
     let (hazard, places, writes) = (plan.hazard, plan.inflight, Some(depth_write));
     Shape { memory: "depth", hazard, places, entry, writes, stages: Vec::new(), ways, write }

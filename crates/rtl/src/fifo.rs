@@ -16,12 +16,12 @@ pub(crate) fn fifo(
     let m = Module::new(
         name,
         &format!(
-            "First in, first out: {depth} places in registers; the others move up as the first is taken.
+            "First in, first out: {depth} places in registers. When the first token leaves, the others move up.
 
   in ─> [place {}] ─> … ─> [place 0] ─> out
 
-Timing: a token taken in at a clock is seen at the output in the next cycle, if it is first.
-Rules: in_ready does not look at out_ready: a full queue takes nothing in, even while its first token leaves.",
+Timing: a token taken in one clock is at the output in the next, if it is the first.
+Rules: in_ready does not depend on out_ready. A full queue takes no token, even while its first token leaves.",
             depth - 1
         ),
     );
@@ -29,7 +29,7 @@ Rules: in_ready does not look at out_ready: a full queue takes nothing in, even 
     let token = Token::inputs(&m, "in", parts.to_vec());
     let out_ready = m.input("out_ready", 1);
 
-    m.comment("How many places are taken, counted from place 0.");
+    m.comment("Count of the places in use; place 0 is the first.");
     let bits = (depth + 1).next_power_of_two().ilog2();
     let count = m.reg("count", bits).doc("tokens").reset(0);
     let in_ready = count.q().lt(depth as i32).named("in_ready");
@@ -39,7 +39,7 @@ Rules: in_ready does not look at out_ready: a full queue takes nothing in, even 
     count.when(push & !pop, count.q() + 1).when(pop & !push, count.q() - 1);
 
     // in_valid and out_ready may come late in their cycle: the one leads to no place, the other only to their enables.
-    m.comment("A free place takes the input in every cycle, the last taken one as its token moves up; a push makes it count.");
+    m.comment("Each free place loads the input in every cycle; so does the last used place when its token moves up. A push makes the loaded token count.");
     let places: Vec<_> =
         (0..depth).map(|i| Registers::new(&m, &format!("place{i}"), parts.to_vec())).collect();
     for (i, place) in places.iter().enumerate() {
@@ -54,12 +54,12 @@ Rules: in_ready does not look at out_ready: a full queue takes nothing in, even 
     }
     for flag in flags {
         // Kept beside the queue: who asks has it from a register.
-        let any = m.reg(&format!("any_{flag}_queued"), 1).doc("of a token in the queue").reset(0);
+        let any = m.reg(&format!("any_{flag}_queued"), 1).doc("a queued token has this flag").reset(0);
         let behind = places.iter().enumerate().skip(1);
         let behind =
             behind.fold(m.lit(1, 0), |any, (i, place)| any | (count.q().gt(i as i32) & place[*flag].q()));
         any.set(pop.mux(behind, any.q()) | (push & token[*flag]));
-        m.output_doc(&format!("any_{flag}"), any, "of a token in the queue");
+        m.output_doc(&format!("any_{flag}"), any, "a queued token has this flag");
     }
 
     m.output("in_ready", in_ready);

@@ -22,19 +22,21 @@ use operands::Operands;
 use root::Root;
 use steps::Steps;
 
-const DOC: &str = "LAMP finds the cosines of a light at a point, and how much of it comes.
+const DOC: &str = "LAMP finds the cosines of a light at a point, and the share of its light that arrives.
 
   frag ─> [kept] ─> root of dd, of nn, of 1 + L.V ─> [k, m] ─> tables ─> [a] * [b] ─> [registers] ─> normed
                                     roots memory ─ rdata ─┘
 
-Formats: dd signed, 2^30 for 1.0; pl, dv, da, pv signed, 2^23; nn signed, 2^16; cosines signed, attenuation and beam, 2^16. Tables hold
-{v, slope}: R 1/sqrt(k/256), C the beam beside the axis, A the attenuation; slope is how much less it is one entry on.
-Timing: a step a clock, 17 for a fragment. What step s multiplies is there, rounded, in step s + 2.
+Formats: dd is signed, 2^30 for 1.0; pl, dv, da, pv are signed, 2^23 for 1.0; nn and cosines are signed, 2^16 for 1.0.
+Attenuation and beam: 2^16 for 1.0. Tables hold {v, slope}: R 1/sqrt(k/256), C the beam beside the axis, A the attenuation.
+slope is the decrease to the next entry.
+Timing: a step a clock, 17 for a fragment. The product of step s is ready, rounded, in step s + 2.
   step   0    1    2    3    4    5    6    7    8    9    10   11   12   13   14   15
   root   dd                       nn                       LV
   table       R    A                   R         C              R
   a * b       y    att  pl   dv   da   y         cone L    pv   y    beam H    nl
-Rules: the tables are fetched once after a reset, when the first fragment comes, a word a clock; until then none is taken.";
+Rules: the tables are fetched once after a reset, when the first fragment is offered, a word a clock. No fragment is taken
+before.";
 
 /// The netlist of LAMP.
 ///

@@ -53,7 +53,7 @@ pub fn assemble(plan: &Plan, units: &[(&UnitSpec, Build)]) -> Result<Arc<Netlist
     units.connect_inputs();
     units.join();
 
-    m.comment("The cause of the cycle.");
+    m.comment("Cause of the cycle.");
     let activity = activity::activity(&m, &units).named("activity");
 
     units.connect_outputs();
@@ -79,9 +79,9 @@ fn doc(plan: &Plan, units: &[(&UnitSpec, Build)]) -> String {
 {}
 
 A link ─> has valid and ready: a token moves in a cycle where both are high. valid never waits for ready.
-Values under the links hold beside their tokens. One clock, synchronous reset rst, active high.
-activity is the one cause of the cycle: {};
-in all but draw and offscreen PIXEL stalls.",
+Values below the links are stable while their tokens are offered. One clock; rst is synchronous, active high.
+activity is the single cause of the cycle: {}.
+PIXEL stalls in every cause but draw and offscreen.",
         picture::picture(&ports),
         Activity::codes(plan)
     )

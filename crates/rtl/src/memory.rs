@@ -8,26 +8,27 @@ use edgewalk_netlist::{BuildErrors, Module, Netlist, Reg, Signal};
 
 use crate::wires::{Token, parts};
 
-const DOC: &str = "MEMORY holds the depths and the picture, a word a pixel, behind the channels of DEPTH.
+const DOC: &str = "MEMORY holds the depths and the picture, a word a pixel, behind the links of DEPTH.
 
   rd (address) ─> [depths] ─> [1] ─> … ─> [latency] ─> data
   wr ──┬────────────┘
        └────────> [frame] ─> scan (address in, colour and extra channels in the next cycle)
 
-Timing: a depth is at data `latency` cycles after its read, and waits there until it is taken.
+Timing: a depth reaches data `latency` cycles after its read, and waits there until it is taken.
 Rules: a read in the cycle of a write sees the old word. Writes are always taken.
-Not modelled: banks, bursts, refresh; a light's map, and what it lights.";
+Not modelled: banks, bursts, refresh; a light's map.";
 
-const BLEND_DOC: &str = "MEMORY holds the depths and the picture, a word a pixel, behind the channels of DEPTH and BLEND.
+const BLEND_DOC: &str = "MEMORY holds the depths and the picture, a word a pixel, behind the links of DEPTH and BLEND.
 
   rd (address) ─> [depths] ─> [1] ─> … ─> [latency] ─> data
   zwr ──────────────┘
   crd (address) ─> [frame] ─> [1] ─> … ─> [latency] ─> cdata
   cwr ──────────────┘    └──> scan (address in, colour and extra channels in the next cycle)
 
-Timing: a word is at data or cdata `latency` cycles after its read, each has its own, and waits there until it is taken.
+Timing: a word reaches data or cdata `latency` cycles after its read, and waits there until it is taken. Each link has a
+latency of its own.
 Rules: a read in the cycle of a write sees the old word. Writes are always taken.
-Not modelled: banks, bursts, refresh; a light's map, and what it lights.";
+Not modelled: banks, bursts, refresh; a light's map.";
 
 /// The netlist of a memory of 2^(xb+yb) pixels. At the start every depth is `clear_z` and every other channel 0.
 ///
@@ -52,9 +53,9 @@ pub fn memory(plan: &Plan, clear_z: u64) -> Result<Arc<Netlist>, BuildErrors> {
     } else {
         (write("wr", tokens::write(plan)), None)
     };
-    let scan_addr = m.input_doc("scan_addr", plan.widths().address, "of the pixel to show");
+    let scan_addr = m.input_doc("scan_addr", plan.widths().address, "address of the pixel to show");
 
-    m.comment("The way of a depth: each stage moves on when the next is free or moves on itself.");
+    m.comment("Stages of the read latency: a stage advances when the next one is free or advances.");
     let way = Way::new(&m, plan.latency, read.data_ready, "", "depth");
     let (address, words) = (plan.widths().address, 1 << plan.widths().address);
     let depths =
@@ -66,7 +67,7 @@ pub fn memory(plan: &Plan, clear_z: u64) -> Result<Arc<Netlist>, BuildErrors> {
     let depth = depths.read((read.valid & way.ready).named("read"), read.addr);
     let depth = way.word(&m, read.valid, depth);
 
-    m.comment("The picture.");
+    m.comment("Frame memory.");
     let always = m.lit(1, 1);
     let color = if blends { wr["rgb"] } else { m.cat(&[wr["r"], wr["g"], wr["b"]]) };
     let frame =

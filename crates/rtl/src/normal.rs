@@ -15,13 +15,13 @@ use cosine::cosine;
 
 const DOC: &str = "NORMAL divides the products of a fragment's normal by the normal's length.
 
-  frag ─> [N1: N.N cut] ─> [N2: entry of R] ─> [N3: slope * low] ─> [N4: y, the root] ─> [N5: product * y] ─> normed
+  frag ─> [N1: limit N.N] ─> [N2: entry of R] ─> [N3: slope * low] ─> [N4: y, the root] ─> [N5: product * y] ─> normed
                  roots memory ─ rdata ─┘
 
-Formats: pl*, ph*, nn signed, 2^16 for 1.0; of nn what lies from 1/4 to below 1 counts. R holds {v, slope}, 2^-16: 1/sqrt(k/256), and
-how much less it is one entry on. nl*, nh* signed, in entries of SHADE's tables; what is beyond their bits is the last that they say.
-Timing: a fragment a clock, offered five clocks after it was taken. All stages move together.
-Rules: R is fetched once after a reset, when the first fragment comes, a word a clock; until then none is taken.";
+Formats: pl*, ph* and nn are signed, 2^16 for 1.0; nn is limited to [1/4, 1). R holds {v, slope}, 2^-16: v is 1/sqrt(k/256),
+slope the decrease to the next entry. nl* and nh* are signed, in entries of SHADE's tables, saturated at the ends.
+Timing: a fragment a clock, offered five clocks after it was taken. All stages advance together.
+Rules: R is fetched once after a reset, when the first fragment is offered, a word a clock. No fragment is taken before.";
 
 /// What the stages are called.
 const STAGES: [&str; 5] = ["n1", "n2", "n3", "n4", "n5"];
@@ -37,20 +37,18 @@ pub fn normal(plan: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
     let memory = ports.memory("roots");
     let normed_ready = ports.gives_ready();
 
-    m.comment(
-        "The stages, and what goes through them as it is: products and gloss as far as they are multiplied.",
-    );
+    m.comment("Stages, and the fields that pass through them until they are multiplied.");
     let cosines = parts(&tokens::cosines(plan));
     let through = |part: &Part| part.name != "nn";
     let with_products: Vec<Part> = frag.parts().into_iter().filter(through).collect();
     let without: Vec<Part> = cosines.iter().filter(|part| frag.get(&part.name).is_some()).cloned().collect();
     let stages = STAGES.map(|name| {
         let kept = if name == "n5" { &without } else { &with_products };
-        let valid = m.reg(&format!("{name}_valid"), 1).doc("a fragment is in this stage").reset(0);
+        let valid = m.reg(&format!("{name}_valid"), 1).doc("the stage holds a fragment").reset(0);
         Stage { valid, kept: Registers::new(&m, name, kept.clone()) }
     });
     let last = stages[4].valid.q();
-    let advance = (!last | normed_ready).named_doc("advance", "all stages move on");
+    let advance = (!last | normed_ready).named_doc("advance", "all stages advance");
     let occupied = stages.iter().map(|stage| stage.valid.q()).reduce(|any, one| any | one);
     let occupied = occupied.expect("there are five stages");
 
@@ -63,27 +61,28 @@ pub fn normal(plan: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
         kept.load(advance, |f| before[f]);
         (valid, before) = (filled.q(), kept.token());
     }
-    m.comment("N1: N.N from 1/4 to below 1.");
+    m.comment("N1: N.N, limited to [1/4, 1).");
     let nn = frag["nn"];
     let (sign, whole) = (nn.msb(), nn.slice(nn.width() - 2, 16).any());
-    let short = (sign | (!whole & !nn.slice(15, 14).any())).named_doc("short", "shorter than a half");
+    let short =
+        (sign | (!whole & !nn.slice(15, 14).any())).named_doc("short", "length below 1/2: N.N counts as 1/4");
     let at_most = whole.mux(m.lit(16, 0xffff), nn.trunc(16));
     let n1_s = moved(&m, advance, "n1_s", "N.N, 2^-16", short.mux(m.lit(16, 1 << 14), at_most));
 
-    m.comment("N2: the entry, and how far N.N lies beyond it.");
+    m.comment("N2: entry of the table, and distance of N.N beyond it.");
     let entry = roots.read(advance, n1_s.slice(15, 8));
     let low = moved(&m, advance, "n2_low", "2^-16", n1_s.trunc(8));
 
-    m.comment("N3: how much less the root is there.");
+    m.comment("N3: correction of the root.");
     let (v, slope) = (entry.slice(26, 10), entry.slice(9, 0));
-    let n3_v = moved(&m, advance, "n3_v", "of the entry, 2^-16", v);
+    let n3_v = moved(&m, advance, "n3_v", "root at the entry, 2^-16", v);
     let less = moved(&m, advance, "n3_less", "2^-24", slope * low);
 
-    m.comment("N4: the root.");
+    m.comment("N4: the root, 1/sqrt(N.N).");
     let rounded = (less + m.lit(18, 1 << 7)).slice(17, 8).named_doc("rounded", "2^-16");
     let y = moved(&m, advance, "n4_y", "1/sqrt(N.N), 2^-16", n3_v - rounded.zext(17));
 
-    m.comment("N5: the cosines, and where they stand in SHADE's tables.");
+    m.comment("N5: the cosines, and their entries in SHADE's tables.");
     let n4 = stages[3].kept.token();
     let cosines: Vec<(String, Signal<'_>)> = cosines
         .iter()

@@ -25,10 +25,10 @@ const DOC: &str = "PIXEL steps along a span, a pixel every ceil(N/A) clocks, wit
                  └────────────────────────────────────────┘
 
 Formats: values and increments are modular words; a fragment takes the bits above the fraction.
-Timing: a pixel leaves in the last of its phases. The additions for the next pixel begin in that same phase and go on
-in the first phases of the next pixel, one channel of each adder a clock; an adder without one more rests.
-Rules: everything stands still while a fragment waits at the output. Columns off the screen cost their phases, and give
-no fragment.";
+Timing: a pixel leaves in its last phase. In that phase the additions for the next pixel begin. Each adder serves one
+channel a clock; an adder without a channel rests.
+Rules: the unit stalls while a fragment waits at the output. A column off the screen costs its phases and makes no
+fragment.";
 
 /// The netlist of PIXEL.
 ///
@@ -50,7 +50,7 @@ pub fn pixel(plan: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
 
     let links = Links { span_valid, span, increments, frag_valid: frag_valid.q(), frag_ready };
     let drawing = Drawing::new(&m, plan, &links, &ports);
-    m.comment("The additions.");
+    m.comment("One adder serves one channel, or several in turn.");
     let first = drawing.additions(&m, &links);
     let words = Words::new(&m, plan, drawing.advance, first, &links.span, &links.increments);
     let terms = Terms::new(&m, plan, &links.span, &drawing);

@@ -28,10 +28,10 @@ pub(crate) fn place<'m>(
             // A material's gloss is at most the machine's.
             let bits = (most + 1).next_power_of_two().ilog2();
             let scaled = if most == 0 { below_one } else { below_one.shl_by(gloss.trunc(bits)) };
-            (scaled + one).named_doc(&format!("scaled_{name}"), "2^gloss times as far from 1.0, 2^-16")
+            (scaled + one).named_doc(&format!("scaled_{name}"), "1.0 - 2^gloss * (1.0 - cosine), 2^-16")
         }
     };
     let index = placed.slice(placed.width() - 1, ONE - plan.shade.table_bits);
-    let index = index.named_doc(&format!("index_{name}"), "in entries");
+    let index = index.named_doc(&format!("index_{name}"), "entry of SHADE's table");
     cut(m, name, index, part.width)
 }

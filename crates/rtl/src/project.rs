@@ -17,9 +17,11 @@ use crate::wires::{Part, Token};
 
 const DOC: &str = "PROJECT divides a fragment's place in the light's view by its weight.
 
-Formats: lx, ly, lz, lw signed. Of what is taken lx / lw and ly / lw are the place on the map, 0 to 1, and lz / lw the depth from the
-light; of what is given lx and ly are the texel, -1 beside the map, and lz the depth in the map's LSB, to nearest: -1 before the map.
-Rules: a row of restoring division makes a binary place of a quotient: twice the rest, less the divisor where that leaves no less than 0.";
+Formats: lx, ly, lz, lw signed.
+  frag       lx / lw and ly / lw are the place on the map, 0 to 1; lz / lw is the depth from the light
+  projected  lx and ly are the texel, -1 outside the map; lz is the depth in the map's LSB, to nearest, -1 in front of it
+Rules: one row of restoring division makes one bit of a quotient. The rest is doubled; the divisor is subtracted where the
+difference is not negative.";
 
 /// What is divided, by the names of the registers.
 const DIVIDED: [&str; 3] = ["x", "y", "z"];
@@ -47,9 +49,10 @@ fn rows(plan: &Plan) -> [u32; 3] {
 /// What goes past the division: the rest of the fragment, and what is not divided at all.
 fn kept<'m>(plan: &Plan, frag: &Token<'m>) -> Token<'m> {
     let m = frag["lw"].module();
-    m.comment("What lies on the map, before it and behind it. With the signs 0 the numbers are as long as the divisor.");
+    m.comment("Range checks. With signs 0 the dividends are as long as the divisor.");
     let [x, y, z, w] = LIGHT_SPACE.map(|name| frag[name]);
-    let before_light = (!w.msb() & w.any()).named_doc("before_light", "the weight is more than 0");
+    let before_light =
+        (!w.msb() & w.any()).named_doc("before_light", "the weight is above 0: in front of the light");
     let below = |number: Signal<'m>| {
         let bits = plan.shadow.light_bits;
         before_light & !number.msb() & number.trunc(bits).lt(w.trunc(bits))
@@ -59,10 +62,10 @@ fn kept<'m>(plan: &Plan, frag: &Token<'m>) -> Token<'m> {
         (part, signal.named(name))
     };
     let flags = [
-        said("column_on_map", "it has a column of the map", below(x)),
-        said("line_on_map", "it has a line of the map", below(y)),
-        said("depth_on_map", "its depth is one that the map can say", below(z)),
-        said("nearer", "nearer than the map can say, or behind the light", !before_light | z.msb()),
+        said("column_on_map", "the column is on the map", below(x)),
+        said("line_on_map", "the line is on the map", below(y)),
+        said("depth_on_map", "the depth is in the map's range", below(z)),
+        said("nearer", "nearer than the map's range, or behind the light", !before_light | z.msb()),
     ];
     let others = frag.parts().into_iter().filter(|part| !LIGHT_SPACE.contains(&part.name.as_str()));
     others.map(|part| (part.clone(), frag[part.name.as_str()])).chain(flags).collect()
@@ -77,7 +80,7 @@ fn give<'m>(
     quotients: [Signal<'m>; 3],
 ) {
     let m = valid.module();
-    m.comment("The texel, and the depth rounded to nearest; what was not divided has a number of its own.");
+    m.comment("Texel, and depth rounded to nearest. Undivided values get fixed codes.");
     let [x, y, z] = quotients;
     let depth_bits = plan.shadow.depth_bits;
     let texel = |on_map: &str, quotient: Signal<'m>| {
@@ -85,7 +88,7 @@ fn give<'m>(
         kept[on_map].mux(quotient.zext(bits), -1)
     };
     // A half more, and without the place behind the point.
-    let rounded = (z.zext(depth_bits + 2) + 1).named_doc("rounded", "half an LSB more");
+    let rounded = (z.zext(depth_bits + 2) + 1).named_doc("rounded", "depth plus half an LSB");
     let depth = rounded.slice(depth_bits + 1, 1).zext(depth_bits + 2);
     let behind = m.lit(depth_bits + 2, 1 << depth_bits);
     let past = kept["nearer"].mux(-1, behind);

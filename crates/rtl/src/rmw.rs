@@ -21,14 +21,16 @@ pub(crate) use write::{Leaves, Way};
 /// For the header of a unit that has one: what happens when a fragment's word is still in flight.
 pub(crate) fn hazard_doc(hazard: Hazard, word: &str) -> String {
     match hazard {
-        Hazard::Drain => "Hazard: a fragment with fence waits until nothing is in flight.".to_owned(),
+        Hazard::Drain => "Hazard: a fragment with fence waits until no fragment is in flight.".to_owned(),
         Hazard::Interlock => {
             format!(
-                "Hazard: a fragment waits while one of its own address is in flight and may change its {word}."
+                "Hazard: a fragment waits while a fragment in flight at its address may change its {word}."
             )
         }
         Hazard::Forward => {
-            format!("Hazard: a fragment takes the {word} from the last older fragment that writes its pixel.")
+            format!(
+                "Hazard: a fragment takes its {word} from the youngest older fragment that writes its pixel."
+            )
         }
     }
 }
@@ -139,7 +141,9 @@ impl<'m> Rmw<'m> {
         let bits = (places + 1).next_power_of_two().ilog2();
         let count = m.reg("count", bits).doc("fragments in flight").reset(0);
         let mut word = parts(&memory.data.fields);
-        word.iter_mut().for_each(|part| part.doc = format!("the {} it wrote", memory.name));
+        word.iter_mut().for_each(|part| {
+            part.doc = format!("{} from the youngest older fragment of this pixel", memory.name)
+        });
         let w = Write::new(m, ways, write, memory.enable);
         let place = |i| Place {
             entry: Registers::new(m, &format!("place{i}"), entry.clone()),
@@ -148,7 +152,7 @@ impl<'m> Rmw<'m> {
                 word: Registers::new(m, &format!("place{i}_fwd"), word.clone()),
                 follows: (stages.is_empty() && i + 1 < places).then(|| {
                     let flag = m.reg(&format!("place{i}_follows"), 1);
-                    let flag = flag.doc("of the pixel that left in the cycle before");
+                    let flag = flag.doc("same pixel as the fragment that left one cycle earlier");
                     let after_w = (flag.q() & w.changes()).named(&format!("place{i}_after_w"));
                     Follows { flag, after_w }
                 }),
@@ -194,11 +198,11 @@ impl<'m> Rmw<'m> {
         let (data_ready, goes) = match self.places[0].entry.get("need").map(Reg::q) {
             None => (any & may, data_valid & may),
             Some(need) => {
-                let may = may.named_doc("head_may_leave", "but for its word");
+                let may = may.named_doc("head_may_leave", "the head may leave once its word arrives");
                 (any & may & need, may & (data_valid | !need))
             }
         };
-        let goes = goes.named_doc("goes", "a head leaves, if there is one");
+        let goes = goes.named_doc("goes", "the head leaves, if the queue holds one");
         Turn { data_ready: named(data_ready), fires: (any & goes).named(name), goes }
     }
 
@@ -207,7 +211,7 @@ impl<'m> Rmw<'m> {
         let same = |stage: &InFlight<'m>| stage.valid & stage.addr.eq(self.head("addr"));
         let same = self.stages.iter().map(same).reduce(|any, one| any | one);
         let same = same.filter(|_| self.hazard == Hazard::Forward)?;
-        Some((self.head("need") & same).named_doc("head_waits", "its old word is being made"))
+        Some((self.head("need") & same).named_doc("head_waits", "the head's old word is still in a stage"))
     }
 
     /// A field of the oldest fragment in the queue.
@@ -256,7 +260,7 @@ impl<'m> Rmw<'m> {
 
     /// The queue moves up when its head leaves; an entry enters with these values of its fields.
     pub fn move_up(&self, enter: &Enter<'m>, turn: &Turn<'m>, value: impl Fn(&str) -> Signal<'m>) {
-        self.m.comment("The queue moves up when its head leaves; what enters goes behind the last.");
+        self.m.comment("The queue moves up when its head leaves; a new fragment goes behind the last one.");
         let (push, pop, count) = (enter.push, turn.fires, self.count);
         count.when(push & !pop, count.q() + 1).when(pop & !push, count.q() - 1);
         // A free place takes what may enter in every cycle: neither push nor pop, which may come late, leads into an entry.
@@ -321,7 +325,7 @@ impl<'m> Rmw<'m> {
 
     /// Fragments in the queue take the word being written, if it is of their pixel; so does one that enters.
     fn forward(&self, enters_addr: Signal<'m>, steps: &[Move<'m>]) {
-        self.m.comment("Forward: a word being written goes to every fragment of its pixel in the queue.");
+        self.m.comment("Forward: a word on its way to memory goes to every queued fragment of its pixel.");
         let after_w = |(i, place): (usize, &Place<'m>)| match &place.forwarded {
             Some(own) if self.stages.is_empty() => own.follows.map(|follows| follows.after_w),
             // w is filled from a stage: who is of its pixel is seen only there.
@@ -357,7 +361,7 @@ impl<'m> Rmw<'m> {
             return;
         }
         self.m.comment(
-            "What the head writes is in w a cycle later: who is of its pixel is found while it goes there.",
+            "The head reaches w one cycle later. Meanwhile each place compares its address with the head's.",
         );
         let head = self.head("addr");
         let enters = enters_addr.eq(head).named("enters_after_head");

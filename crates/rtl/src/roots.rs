@@ -27,13 +27,13 @@ impl<'m> Roots<'m> {
         frag_valid: Signal<'m>,
         memory: &FromMemory<'m>,
     ) -> Roots<'m> {
-        m.comment(&format!("The fetching of {what}: asked for a word a clock, taken as the words come."));
+        m.comment(&format!("Fetch of {what}: one read request a clock; words are loaded as they arrive."));
         let words = plan.root_words();
         let bits = words.ilog2();
-        let have = m.reg("have", 1).doc("the table is inside").reset(0);
+        let have = m.reg("have", 1).doc("the table is loaded").reset(0);
         let loading = m.reg("loading", 1).doc("the table is being fetched").reset(0);
-        let asked = m.reg("asked", bits + 1).doc("words asked for");
-        let taken = m.reg("taken", bits).doc("words that came");
+        let asked = m.reg("asked", bits + 1).doc("words requested");
+        let taken = m.reg("taken", bits).doc("words received");
         let begins = (frag_valid & !have.q() & !loading.q()).named("begins");
         // As many words as numbers of so many bits: the bit above says that all are asked for.
         let read_valid = (loading.q() & !asked.q().msb()).named("rrd_valid");

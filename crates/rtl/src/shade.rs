@@ -21,20 +21,20 @@ use index::Index;
 use tables::Tables;
 use weaken::{BEAM, weakened};
 
-const DOC: &str = "SHADE makes the colour of a fragment of its cosines, by tables that hold the material.
+const DOC: &str = "SHADE makes the colour of a fragment from its cosines, by tables of the material.
 
   frag ─> index ─> [A] ─> tables T, S ─> [B] ─────────> sum ─> [C] ─> tinted
   material ─ srd (address) ─> tables memory ─ sdata ─┘
 
-Formats: nl*, nh* signed, in entries of a table; below 0 counts as 0, beyond the last entry as the last. T holds the diffuse light, S
-the highlight, LSB of the colour; where nl is below 0 there is no highlight. Sums are cut to the largest colour.
-Timing: a fragment a clock, offered three clocks after it was taken (four if it is multiplied). All stages move together.
-Rules: the tables of one material are inside. A fragment of another waits until the stages are empty and its tables have been read,
-a word a clock.";
+Formats: nl* and nh* are signed, in entries of a table, and saturate at its ends. T holds the diffuse light, S the highlight,
+in LSB of the colour. Where nl is below 0, the highlight is 0. Sums saturate at the largest colour.
+Timing: a fragment a clock, offered three clocks after it was taken, with stage M four. All stages advance together.
+Rules: the unit holds the tables of one material. A fragment of another material waits until the stages are empty and its
+tables have been fetched, a word a clock.";
 
-const WEAKEN_DOC: &str = "Behind LAMP: beside the cosines comes beam, 2^16 for all of the light. Behind B a stage [G] takes the highlight times beam.";
+const WEAKEN_DOC: &str = "Behind LAMP: a fragment also brings beam, 2^16 for all of the light. Behind B stage [G] multiplies the highlight by beam.";
 
-const MULTIPLY_DOC: &str = "Multiplied: T holds the light, 2^(b+2) for 1.0. Between B and C a stage [M] takes the fragment's colour times the light.";
+const MULTIPLY_DOC: &str = "Multiplied: T holds the light, 2^(b+2) for 1.0. Between B and C stage [M] multiplies the fragment's colour by the light.";
 
 /// The netlist of SHADE.
 ///
@@ -55,7 +55,7 @@ pub fn shade(plan: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
     let memory = ports.memory("tables");
     let tinted_ready = ports.gives_ready();
 
-    m.comment("The stages, and what goes through them as it is.");
+    m.comment("Stages, and the fields that pass through them unchanged.");
     let names: &[&str] = match (weakens, multiplies) {
         (false, false) => &["a", "b", "c"],
         (false, true) => &["a", "b", "m", "c"],
@@ -72,12 +72,12 @@ pub fn shade(plan: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
             let of_beam = beam.iter().filter(|_| ["a", "b"].contains(name));
             let is_kept = |part: &str| colour || !COLOURS.contains(&part);
             let kept = tinted.iter().filter(|part| is_kept(&part.name)).chain(of_beam).cloned().collect();
-            let valid = m.reg(&format!("{name}_valid"), 1).doc("a fragment is in this stage").reset(0);
+            let valid = m.reg(&format!("{name}_valid"), 1).doc("the stage holds a fragment").reset(0);
             Stage { valid, kept: Registers::new(&m, name, kept) }
         })
         .collect();
     let last = stages[stages.len() - 1].valid.q();
-    let advance = (!last | tinted_ready).named_doc("advance", "all stages move on");
+    let advance = (!last | tinted_ready).named_doc("advance", "all stages advance");
     let occupied = stages.iter().map(|stage| stage.valid.q()).reduce(|any, one| any | one);
     let occupied = occupied.expect("there are three stages or four").named("occupied");
 
@@ -92,7 +92,7 @@ pub fn shade(plan: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
         (valid, before) = (filled.q(), kept.token());
     }
 
-    m.comment("Stage A: which entries.");
+    m.comment("Stage A: entries of the tables.");
     let indices: Vec<Index> =
         (0..plan.shade.lights).map(|light| Index::new(&m, plan, light, &frag, advance)).collect();
     let lights = tables.look_up(&m, advance, &indices);

@@ -1,4 +1,4 @@
-//! SHADOW: looks up a light's depth map for every fragment, and darkens what lies behind it.
+//! SHADOW: looks up a light's depth map for every fragment, and darkens each fragment behind it.
 
 use std::sync::Arc;
 
@@ -12,28 +12,28 @@ use crate::ports::Interface;
 use crate::share::share;
 use crate::wires::{Part, Token};
 
-const DOC: &str = "SHADOW looks up a light's depth map for every fragment, and darkens what lies behind it.
+const DOC: &str = "SHADOW looks up a light's depth map for every fragment, and darkens each fragment behind it.
 
            ┌───── mrd (address) ──> map memory
   frag ────┴─> [queue] ─┬─ compare ─> gate ─> shaded
     map memory ─ mdata ─┘
 
-Formats: lx, ly signed, the texel; lz signed, the depth from the light less the bias, with two bits more than the map's words:
-before 0 and beyond them all. lit is 1 where lz is not more than the texel's word.
-Timing: a texel is read in the cycle its fragment comes; the fragment goes on in the cycle the word comes.
-Rules: what lies outside the map or before it is lit, what lies behind it is in shadow; neither is read for. Words come in the
-order of the reads. shadow_on stays as it is while the machine is busy.";
+Formats: lx and ly are signed, the texel. lz is signed, the depth from the light less the bias. lz has two bits more than
+the words of the map, so it can lie outside their range. lit is 1 where lz is at most the texel's word.
+Timing: the read leaves in the cycle in which a fragment enters. The fragment leaves in the cycle in which the word arrives.
+Rules: a fragment outside the map, or in front of its range, is lit. A fragment behind the range is in shadow. Neither is
+read. Words arrive in the order of the reads. shadow_on is stable while the machine is busy.";
 
 /// Behind that, where a word says more than a depth.
 const TRANSMITS: &str = "
 
-A word is a depth and, below it, what is left of a light's colour behind all that transmits it: the share of each colour that
-goes on where the texel finds it lit.";
+A word is {depth, share}. The share is the part of the light behind all glass in front of the surface. A lit fragment
+keeps that share of each colour.";
 
 /// And where the machine draws its map.
 const OWN_PASS: &str = "
 
-With light_pass the fragments are those of the map itself: none is looked up, each is lit.";
+With light_pass the fragments belong to the map itself: no fragment is looked up, each is lit.";
 
 /// Light-space values, which end here.
 const LIGHT: [&str; 3] = ["lx", "ly", "lz"];
@@ -63,12 +63,13 @@ pub fn shadow(plan: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
     let [tx, ty, d] = LIGHT.map(|name| frag[name]);
     let found = find(plan, light_pass.in_picture(shadow_on), tx, ty, d);
 
-    m.comment("A fragment enters when the queue has room, in the cycle its texel is read; one that is known is not read for.");
+    m.comment("A fragment enters when the queue has room, in the cycle of its texel's read. A known fragment needs no read.");
     let queue = m
         .instance("queue", &fifo("edgewalk_shadow_fifo", plan.shadow.queue, &entry_parts(plan, &frag), &[])?);
     let room = queue.output("in_ready");
     let mrd_valid = (frag_valid & room & !found.known).named("mrd_valid");
-    let read_done = (found.known | memory.read_ready).named_doc("read_done", "or not asked for");
+    let read_done = (found.known | memory.read_ready)
+        .named_doc("read_done", "the texel's read is accepted, or not needed");
     let frag_ready = (room & read_done).named("frag_ready");
     let address = m.cat(&[ty, tx].map(|t| t.trunc(plan.shadow.side_bits())));
     let entry = Token::new(entry_parts(plan, &frag), |f| match f {
@@ -79,7 +80,7 @@ pub fn shadow(plan: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
     });
     entry.connect(queue.connect("in_valid", frag_valid & read_done), "in", &entry_parts(plan, &frag));
 
-    m.comment("The head goes on when its word comes, or at once if it is known.");
+    m.comment("The head leaves when its word arrives, or at once if it is known.");
     let head = Token::of_instance(queue, "out", entry_parts(plan, &frag));
     let waiting = queue.output("out_valid");
     let decided = (head["known"] | memory.data_valid).named("decided");
@@ -89,14 +90,15 @@ pub fn shadow(plan: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
     let texel = Texel::of(plan, &memory.data);
     let lit = head["known"].mux(head["value"], head["d"].le(texel.depth)).named("lit");
 
-    m.comment("The gate.");
+    m.comment("The gate darkens colours in shadow.");
     let left = texel.left.map(|left| {
         let bits = plan.color.bits;
         let all = m.lit(bits, u128::MAX >> (128 - bits));
         let dark = gate.unwrap_or_else(|| m.lit(bits, 0));
-        let reached =
-            head["known"].mux(all, left).named_doc("reached", "what is left of light that comes here");
-        lit.mux(reached, dark).named_doc("left", "what is left of the colour")
+        let reached = head["known"]
+            .mux(all, left)
+            .named_doc("reached", "share of the light that reaches a lit fragment");
+        lit.mux(reached, dark).named_doc("left", "share of each colour that remains")
     });
     let gated = |c: &str| match (left, gate) {
         (Some(left), _) => share(&m, c, head[c], left),
@@ -121,9 +123,9 @@ fn entry_parts(plan: &Plan, frag: &Token<'_>) -> Vec<Part> {
     let mut entry = frag.parts();
     entry.retain(|part| !LIGHT.contains(&part.name.as_str()));
     let part = |name: &str, width, doc: &str| Part { name: name.to_owned(), width, doc: doc.to_owned() };
-    entry.push(part("known", 1, "lit or not without a texel"));
-    entry.push(part("value", 1, "lit, if that is known"));
-    entry.push(part("d", plan.shadow.depth_bits, "depth from the light, if that has to be compared"));
+    entry.push(part("known", 1, "the result needs no texel"));
+    entry.push(part("value", 1, "lit, valid if known"));
+    entry.push(part("d", plan.shadow.depth_bits, "depth from the light, valid if not known"));
     entry
 }
 
@@ -141,7 +143,7 @@ impl<'m> Texel<'m> {
             return Texel { depth: data["depth"], left: None };
         }
         let (word, bits) = (data["texel"], plan.color.bits);
-        let depth = word.slice(word.width() - 1, bits).named_doc("texel_depth", "of the word");
+        let depth = word.slice(word.width() - 1, bits).named_doc("texel_depth", "depth part of the map word");
         Texel { depth, left: Some(word.trunc(bits)) }
     }
 }
@@ -157,7 +159,7 @@ struct Found<'m> {
 fn find<'m>(plan: &Plan, shadow_on: Signal<'m>, tx: Signal<'m>, ty: Signal<'m>, d: Signal<'m>) -> Found<'m> {
     let m = tx.module();
     let (side, size, depth) = (plan.shadow.side_bits(), plan.shadow.size, plan.shadow.depth_bits);
-    m.comment("Whether the fragment lies on the map: its sign and the bits beyond the map's side are 0.");
+    m.comment("A coordinate is on the map if its sign and its bits above the map's side are 0.");
     let on_axis = |t: Signal<'m>, name: &str| {
         let on_side = !t.slice(t.width() - 1, side).any();
         // A side that is no power of two ends before its bits do.
@@ -165,12 +167,12 @@ fn find<'m>(plan: &Plan, shadow_on: Signal<'m>, tx: Signal<'m>, ty: Signal<'m>, 
         on.named(name)
     };
     let in_map = on_axis(tx, "column_in_map") & on_axis(ty, "line_in_map");
-    let looked_up = (shadow_on & in_map).named_doc("looked_up", "the map counts, and has this place");
-    let nearer = d.msb().named_doc("nearer", "nearer than the map can say");
+    let looked_up = (shadow_on & in_map).named_doc("looked_up", "the map is on and covers the fragment");
+    let nearer = d.msb().named_doc("nearer", "nearer to the light than the map's range");
     let off_range =
-        d.slice(depth + 1, depth).any().named_doc("off_range", "before or behind all that the map can say");
+        d.slice(depth + 1, depth).any().named_doc("off_range", "outside the map's range of depths");
     Found {
         known: (!looked_up | off_range).named("known"),
-        value: (!looked_up | nearer).named_doc("value", "lit, if known"),
+        value: (!looked_up | nearer).named_doc("value", "lit, valid if known"),
     }
 }

@@ -25,11 +25,16 @@ const DOC: &str = "TERM walks polynomials of a pixel's place to the first pixel 
               └─> down, forward, back ─> [x y] [V X Y XX XY YY] ─┘
   inc_record ─ trd (address) ─> terms memory ─ tdata ─┘
 
-Formats: words are modular, as long as their term's. V is the term at (x, y), X what V gains to the next pixel of a span, Y to the
-next line; XX what X gains to the next pixel, XY to the next line, YY what Y gains to the next line. walked_*_g is X, walked_*_gg XX.
-Timing: a record is read when a triangle's first span is offered, a word a clock. walked is offered in the cycle in which (x, y) is
-the span's first pixel; while PIXEL draws that span TERM walks on to the next.
-Rules: a span is not held here. There is no multiplier: a step is additions of words, exact whatever wraps.";
+Formats: words are modular, with the bits of their term.
+  V   the term at (x, y)
+  X   change of V a pixel along the span; walked_*_g
+  Y   change of V a line
+  XX  change of X a pixel; walked_*_gg
+  XY  change of X a line
+  YY  change of Y a line
+Timing: the record is read when a triangle's first span is offered, a word a clock. walked is offered in the cycle in which
+(x, y) is the span's first pixel. While PIXEL draws that span, TERM walks to the next.
+Rules: TERM holds no span. A step adds words, without a multiplier, and is exact even where words wrap.";
 
 /// The netlist of TERM.
 ///
@@ -50,22 +55,22 @@ pub fn term(plan: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
     let record = Record::new(&m, plan, &terms, (span_valid & span["fresh"]).named("fresh_offered"));
     let place = Place::new(&m, &span);
     let fits = span_valid & !record.loading & (record.begun.q() | !span["fresh"]);
-    let fits = fits.named_doc("fits", "the words are the triangle's");
-    let works = (fits & !place.reached).named_doc("works", "at a step");
+    let fits = fits.named_doc("fits", "the words belong to the offered span's triangle");
+    let works = (fits & !place.reached).named_doc("works", "the walk steps in this clock");
     let words = match plan.shade.walk {
         Walk::Register => register::words(&m, plan, works, &place, &record),
         Walk::Memory => memory::words(&m, plan, works, &place, &record),
     };
     place.step(words.stepped, &record);
 
-    m.comment("The span goes on when the walk stands at its first pixel.");
+    m.comment("The span leaves when the walk is at its first pixel.");
     let material = (plan.shade.material_bits > 0).then(|| {
-        let material = m.reg("material", plan.shade.material_bits).doc("of the triangle");
+        let material = m.reg("material", plan.shade.material_bits).doc("material of the triangle");
         record.load(material, MATERIAL);
         material.q()
     });
     let gloss = plan.shade.normalises().then(|| {
-        let gloss = m.reg("gloss", GLOSS_BITS).doc("of the material's highlights");
+        let gloss = m.reg("gloss", GLOSS_BITS).doc("gloss of the material");
         record.load_above(gloss, MATERIAL, plan.shade.material_bits);
         gloss.q()
     });
@@ -107,6 +112,6 @@ fn lowest(signal: Signal<'_>, bits: u32) -> Signal<'_> {
 /// `a + b`, or `a - b`; the operand that is added has a name.
 fn sum<'m>(a: Signal<'m>, b: Signal<'m>, subtract: Signal<'m>, name: &str) -> Signal<'m> {
     let bits = a.width();
-    let added = subtract.mux(!b, b).named_doc(name, "inverted where it is taken off");
+    let added = subtract.mux(!b, b).named_doc(name, "inverted for a subtraction");
     a + added + subtract.zext(bits)
 }

@@ -1,4 +1,4 @@
-//! TEXEL: multiplies the colour of a fragment by that of the nearest texel.
+//! TEXEL: multiplies the colour of a fragment by the colour of the nearest texel.
 
 use std::sync::Arc;
 
@@ -11,16 +11,16 @@ use crate::ports::Interface;
 use crate::share::share;
 use crate::wires::{Token, parts};
 
-const DOC: &str = "TEXEL multiplies the colour of a fragment by that of the nearest texel.
+const DOC: &str = "TEXEL multiplies the colour of a fragment by the colour of the nearest texel.
 
            ┌────── xrd (address) ──> texture memory
   frag ────┴─> [queue] ─┬─ multiply ─> textured
   texture memory ─ xdata ┘
 
-Formats: u, v the texel's column and line, unsigned, of a texture that repeats; xdata {red, green, blue}. A colour c and its
-part x of the texel become c * x / (2^b - 1), to nearest. With BUMP xdata has two slopes below the colours, which go on beside them.
-Timing: a texel is read in the cycle its fragment comes; the fragment goes on in the cycle the word comes.
-Rules: words come in the order of the reads.";
+Formats: u and v are the column and line of the texel, unsigned; the texture repeats. xdata is {red, green, blue}. A colour c
+and the texel's colour x make c * x / (2^b - 1), to nearest. With BUMP xdata holds two slopes below the colours.
+Timing: the read leaves in the cycle in which a fragment enters. The fragment leaves in the cycle in which the word arrives.
+Rules: words arrive in the order of the reads.";
 
 /// The colours, in the order of a word: red, the most significant, first.
 const COLOURS: [&str; 3] = ["r", "g", "b"];
@@ -36,7 +36,7 @@ pub fn texel(plan: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
     let memory = ports.memory("textures");
     let textured_ready = ports.gives_ready();
 
-    m.comment("A fragment enters when the queue has room, in the cycle its texel is read.");
+    m.comment("A fragment enters when the queue has room, in the cycle of its texel's read.");
     let comes = |name: &str| ["bu", "bv"].contains(&name);
     let mut kept = parts(&tokens::textured(plan));
     kept.retain(|part| !comes(&part.name));
@@ -45,13 +45,13 @@ pub fn texel(plan: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
     let address: Vec<_> = frag.get("material").into_iter().chain([frag["v"], frag["u"]]).collect();
     frag.connect(queue.connect("in_valid", frag_valid & memory.read_ready), "in", &kept);
 
-    m.comment("The head goes on when its word comes.");
+    m.comment("The head leaves when its word arrives.");
     let head = Token::of_instance(queue, "out", kept);
     let waiting = queue.output("out_valid");
     let textured_valid = (waiting & memory.data_valid).named("textured_valid");
     queue.connect("out_ready", textured_ready & memory.data_valid);
 
-    m.comment("Its colour times the texel's.");
+    m.comment("Colour of the head times colour of the texel.");
     let (name, b) = (tokens::texture_word(plan).name, plan.color.bits);
     let (word, slope_bits) = (memory.data[name.as_str()], plan.shade.slope_bits);
     let below = plan.texel_word_bits() - 3 * b;

@@ -1,26 +1,34 @@
-//! Memories as arrays, the way synthesis tools recognise a block RAM.
+//! Memories as arrays, the way synthesis tools recognise a block RAM or a ROM.
 
-use edgewalk_netlist::netlist::Memory;
+use edgewalk_netlist::netlist::{Contents, Memory, Row};
 use edgewalk_netlist::ops::Bits;
 
 use crate::expression::Writer;
 use crate::literal;
-use crate::paragraph::Body;
+use crate::paragraph::{Body, commented};
 
-/// The array, and its first contents if it has any.
+/// The array, and its first contents as far as they are known.
 pub(crate) fn declare(writer: &mut Writer, body: &mut Body, memory: &Memory) {
-    let Memory { name, doc, words, width, init, .. } = memory;
+    let Memory { name, doc, words, width, contents: Contents { others, rows }, .. } = memory;
     body.line(format!("reg {}{name} [0:{}];", literal::range(*width), words - 1), doc);
-    let Some(init) = *init else { return };
-    let block = writer.names.fresh(&format!("{name}_init"));
-    let index = writer.names.fresh(&format!("{name}_index"));
-    let init = literal::unsigned(Bits { value: init, width: *width });
-    body.block(&[
-        format!("initial begin : {block}"),
-        format!("  integer {index};"),
-        format!("  for ({index} = 0; {index} < {words}; {index} = {index} + 1) {name}[{index}] = {init};"),
-        "end".into(),
-    ]);
+    if others.is_none() && rows.is_empty() {
+        return;
+    }
+    let word = |value| literal::unsigned(Bits { value, width: *width });
+    let mut lines = vec![format!("initial begin : {}", writer.names.fresh(&format!("{name}_init")))];
+    if let Some(init) = others {
+        let (index, init) = (writer.names.fresh(&format!("{name}_index")), word(*init));
+        lines.push(format!("  integer {index};"));
+        lines.push(format!(
+            "  for ({index} = 0; {index} < {words}; {index} = {index} + 1) {name}[{index}] = {init};"
+        ));
+    }
+    let row = |(address, row): (&usize, &Row)| {
+        (format!("  {name}[{address}] = {};", word(row.word)), row.doc.replace('\n', " "))
+    };
+    lines.extend(commented(&rows.iter().map(row).collect::<Vec<_>>()));
+    lines.push("end".into());
+    body.block(&lines);
 }
 
 /// All write ports in one block: of two writes to one word the later stands last.

@@ -67,6 +67,16 @@ impl Body {
     }
 }
 
+/// Statements with their comments, if they have one, in a column behind them.
+pub(crate) fn commented(rows: &[(String, String)]) -> Vec<String> {
+    let width = rows.iter().map(|(statement, _)| statement.chars().count()).max().unwrap_or(0);
+    let line = |(statement, comment): &(String, String)| match comment.is_empty() {
+        true => statement.clone(),
+        false => format!("{statement:width$}  // {comment}"),
+    };
+    rows.iter().map(line).collect()
+}
+
 /// Lines of two columns, `.name (value)`, the second aligned, with commas between.
 pub(crate) fn columns(rows: &[(String, String)]) -> Vec<String> {
     let width = rows.iter().map(|(left, _)| left.chars().count()).max().unwrap_or(0);

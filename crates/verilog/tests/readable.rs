@@ -90,6 +90,57 @@ fn a_memory_that_is_unknown_at_the_start_has_no_initial_block() {
     assert!(!of(false).contains("initial") && of(false).contains("reg [3:0] words [0:7];"), "{}", of(false));
 }
 
+/// A program of 284 words of 48 bits, as a microprogram has them, and a RAM of 128 words of which 46 are constants.
+fn program() -> Arc<Netlist> {
+    let m = Module::new("fetch", "A ROM, and a RAM with constant rows.");
+    let (write, data) = (m.input("write", 1), m.input("data", 48));
+    let (pc, row) = (m.input("pc", 9), m.input("row", 7));
+    let rom = m.memory("words", 9, 284, 48).doc("word of the program");
+    for address in 0..284 {
+        let text = if address < 2 { ["load the first vertex", "subtract"][address] } else { "" };
+        rom.holds(address, (address as u128 + 1) * 0x1234_5678_9abc % (1 << 48), text);
+    }
+    let ram = m.memory("rows", 7, 128, 48).write(write, row, data);
+    (0..46).for_each(|row| _ = ram.holds(row, 1 << row, ""));
+    m.output("word", rom.read(m.lit(1, 1), pc));
+    m.output("value", ram.read(!write, row));
+    m.finish().unwrap()
+}
+
+#[test]
+fn contents_stand_row_by_row_with_their_words() {
+    let text = text(&program());
+    let wanted = [
+        "  initial begin : words_init\n",
+        "    words[0] = 48'h123456789abc;    // load the first vertex\n",
+        "    words[1] = 48'h2468acf13578;    // subtract\n",
+        "    rows[3] = 48'd8;\n",
+    ];
+    wanted.iter().for_each(|line| assert!(text.contains(line), "{line}\n{text}"));
+    let rows = |name: &str| text.lines().filter(|line| line.trim().starts_with(&format!("{name}["))).count();
+    assert_eq!((rows("words"), rows("rows")), (284, 46), "each row once, no other");
+    assert!(!text.contains("integer"), "no loop where no word is like another\n{text}");
+}
+
+#[test]
+fn a_rom_becomes_block_ram_with_its_contents() {
+    let files = edgewalk_verilog::print(&program());
+    let directory = tempfile::tempdir().unwrap();
+    tools::write(directory.path(), &files);
+    tools::lint(directory.path(), &files, "fetch", &[]);
+    tools::run(directory.path(), "iverilog", &["-Wall", "-t", "null", "fetch.v"]);
+    let script = "read_verilog fetch.v; synth_ice40 -top fetch; check -assert; stat; write_verilog cells.v";
+    let report = tools::run(directory.path(), "yosys", &["-p", script]);
+    let count = |cell: &str| {
+        let line = report.lines().rev().find(|line| line.trim().starts_with(cell));
+        line.and_then(|line| line.split_whitespace().last()?.parse::<u32>().ok()).unwrap_or(0)
+    };
+    // 512 words of 48 bits in blocks of 256 x 16, and three for the RAM; their outputs are the registers.
+    assert_eq!((count("SB_RAM40_4K"), count("SB_DFF")), (6 + 3, 0), "{report}");
+    let cells = std::fs::read_to_string(directory.path().join("cells.v")).unwrap();
+    assert!(cells.contains("INIT_0(256'h"), "the blocks have their contents: {cells}");
+}
+
 #[test]
 fn a_port_has_the_words_of_what_it_is_and_of_no_other() {
     let m = Module::new("two", "");

@@ -10,11 +10,12 @@ use anyhow::Result;
 use edgewalk_bench::{Engine, Job, Row, Table};
 use edgewalk_model::Waits;
 
-/// Times every engine on a triangle file, scene or mesh; one frame is clear and draw all, reading the file is outside the clock.
+/// Time every engine on a triangle file, scene or mesh.
 ///
-/// Slow engines draw the first triangles only, as the output says; every engine must take the cycles and make the writes
-/// that the machine takes and makes for its part, or the exit code is 1. Rates are of processor time, the median frame. Verilator takes part
-/// where it is installed, built from the emitted Verilog of the same machine with -O3 --x-assign fast.
+/// One frame clears and draws all triangles; reading the file does not count. Slow engines draw the first triangles
+/// only, as the output says. Every engine must take the machine's cycles and make its writes, or the exit code is
+/// 1. Rates are of processor time, the median frame. Verilator takes part where it is installed. It gets the
+/// emitted Verilog of the same machine and -O3 --x-assign fast.
 #[derive(clap::Args)]
 #[command(after_help = "Examples:
   edgewalk bench triangles.tri
@@ -24,13 +25,13 @@ use edgewalk_model::Waits;
 pub struct Args {
     #[command(flatten)]
     source: Source,
-    /// Engines that take part; all of them if left out
+    /// Engines to time; all of them if left out
     #[arg(long, value_enum, value_delimiter = ',', value_name = "ENGINE,...")]
     engine: Vec<Engine>,
-    /// How the memory makes the machine wait: none, fixed, random, dram, with parameters as fixed:rd=2; only tick takes part then
+    /// Stalls of the memory: none, fixed, random, dram, with parameters as fixed:rd=2; only tick runs with stalls
     #[arg(long, value_name = "KIND", default_value = "none")]
     stalls: Waits,
-    /// Frames timed for each engine, after a first one
+    /// Frames timed for each engine, after one untimed frame
     #[arg(long, default_value_t = 5, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1000))]
     repeat: u32,
 }

@@ -28,13 +28,14 @@ use edgewalk_model::Waits;
 use page::{Page, Side};
 use std::path::PathBuf;
 
-/// Draws an input on two machines and says what differs: keys, cycles by cause, pixels, and with --synth cells and clock.
+/// Draw an input on two machines and list the differences: keys, cycles by cause, pixels, with --synth cells and
+/// clock.
 ///
-/// A machine is a file or preset, with settings behind commas and its shading behind a colon; what --set says holds for both.
-/// Without a shading a machine draws as its shade.kind says. Where the shadings differ, each picture is also held against the
-/// shading equation at each pixel, which is the same for both. Pictures: a.png, b.png, and difference.png, the pixels that differ
-/// by how much, yellow at the largest. They are machines that are compared here, each with golden as `edgewalk render` does;
-/// pictures of another program are not.
+/// A machine is a file or preset, with settings behind commas and its shading behind a colon; --set holds for both.
+/// Without a shading, the machine's shade.kind decides. Where the shadings differ, each picture is also compared
+/// with the shading equation at each pixel. Pictures: a.png, b.png, and difference.png, with the largest difference
+/// in yellow. The command compares machines, each beside golden as in `edgewalk render`. It does not take pictures
+/// of other programs.
 #[derive(clap::Args)]
 #[command(after_help = "Examples:
   edgewalk compare default default,interpolator.adders=1 teapot.obj
@@ -47,19 +48,19 @@ pub struct Args {
     /// A machine: FILE|PRESET[,key=value...][:SHADING]
     #[arg(value_name = "A")]
     a: String,
-    /// Another
+    /// Another machine, in the same form
     #[arg(value_name = "B")]
     b: String,
     /// A built-in scene, a scene file (.toml), a mesh (.obj, .gltf, .glb) or a triangle file (.tri)
     #[arg(value_name = "SCENE|MESH", default_value = "torus-knot")]
     input: String,
-    /// How a machine without a shading of its own shades a scene or mesh: constant, constant-averaged, gouraud, phong, fast-phong
+    /// Shading of a machine without one of its own: constant, constant-averaged, gouraud, phong, fast-phong
     #[arg(long, value_name = "SHADING", value_parser = clap::builder::PossibleValuesParser::new(SHADINGS.map(|of| of.0)))]
     shading: Option<String>,
-    /// Sets the keys of both machines that the input asks for; what a machine and --set say stands
+    /// Set the keys of both machines that the input asks for; a machine's settings and --set have the last word
     #[arg(long)]
     adapt: bool,
-    /// How the memory makes both wait: none, fixed, random, dram, with parameters as fixed:rd=2
+    /// Stalls of both memories: none, fixed, random, dram, with parameters as fixed:rd=2
     #[arg(long, value_name = "KIND", default_value = "none")]
     stalls: Waits,
     #[command(flatten)]

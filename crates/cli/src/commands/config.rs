@@ -16,8 +16,8 @@ use precision::Precision;
 use serde_json::{Map, Value, json};
 use std::fmt::Write as _;
 
-/// Prints, checks or explains a machine: what its keys mean, which error of its outputs is proved, how many fraction bits its
-/// screen needs.
+/// Print, check or explain a machine: its keys, the proved error of its outputs, the fraction bits that its screen
+/// needs.
 #[derive(clap::Args)]
 #[command(after_help = "Examples:
   edgewalk config print --machine textbook > my.toml
@@ -30,11 +30,11 @@ pub struct Args {
 
 #[derive(clap::Subcommand)]
 enum What {
-    /// The whole machine as a file, every key with its meaning
+    /// Print the whole machine as a file, every key with its meaning
     Print,
-    /// Says whether the machine can be built, or why not
+    /// Check whether the machine can be built, and if not, tell why
     Check,
-    /// What a key means, what it may be, and what follows from the machine
+    /// Explain a key: meaning, permitted values, and consequences for the machine
     Explain {
         /// A key, e.g. memory.hazard; all of them if left out
         key: Option<String>,

@@ -17,11 +17,11 @@ use edgewalk_model::Waits;
 use edgewalk_vectors::{Tables, Unit};
 use std::path::PathBuf;
 
-/// Renders a built-in scene through golden picture and model, compares them, and writes the machine's Verilog and vectors.
+/// Draw a built-in scene by golden and by the model, compare them, and write the machine's Verilog and vectors.
 ///
-/// z_error.png and color_error.png show the error of the rounded outputs, blue to yellow up to 1 LSB and red above;
-/// z_accumulator.png that of the depth's accumulator before rounding, over the bound of the additions behind the pixel: blue
-/// below, orange above, with its scale (exact fill and edges only).
+/// z_error.png and color_error.png show the error of the rounded outputs: blue to yellow up to 1 LSB, red above.
+/// z_accumulator.png shows the error of the depth's accumulator before rounding, over the bound of the additions
+/// behind the pixel. Blue is below, orange above; the scale is in the picture. It needs exact fill and exact edges.
 #[derive(clap::Args)]
 #[command(after_help = "Examples:
   edgewalk demo

@@ -10,7 +10,8 @@ use anyhow::Result;
 use serde_json::json;
 use std::path::PathBuf;
 
-/// Writes the machine as readable, synthesizable Verilog-2001, a module a file, with a list of them in compile order.
+/// Write the machine as readable, synthesizable Verilog-2001: a file for each module, and filelist.f in compile
+/// order.
 #[derive(clap::Args)]
 #[command(after_help = "Examples:
   edgewalk emit --out hdl/mine --set interpolator.adders=1

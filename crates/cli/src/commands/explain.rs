@@ -8,8 +8,9 @@ use crate::verdict::Verdict;
 use anyhow::{Result, anyhow};
 use edgewalk_explain::{Input, explain};
 
-/// Says which triangles lie over a pixel, how its light is made up, and every addition of the machine on the way to it,
-/// with its error and its bound.
+/// Explain a pixel: the triangles over it, the parts of its light, and every addition of the machine behind it.
+///
+/// Each addition is shown with its error and its proved bound.
 #[derive(clap::Args)]
 #[command(after_help = "Examples:
   edgewalk explain torus-knot 320 240
@@ -56,7 +57,7 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
     // A pixel may be empty, but not the whole picture.
     Verdict::drew(explanation.covered).or_nothing(
         &args.source.input,
-        frame.triangles.len() as u64,
+        frame.drawn() as u64,
         (machine.width, machine.height),
     )
 }

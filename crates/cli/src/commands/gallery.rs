@@ -13,7 +13,8 @@ use serde_json::json;
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
-/// Draws the gallery: what each shading system of the sources does well and badly, with pictures and measured figures.
+/// Draw the gallery: strengths and faults of each shading system of the sources, with pictures and measured
+/// figures.
 #[derive(clap::Args)]
 #[command(after_help = "Examples:
   edgewalk gallery

@@ -20,11 +20,12 @@ use edgewalk_scene::{Frame, InputError, InputKind};
 use page::Page;
 use std::path::{Path, PathBuf};
 
-/// Draws a file of screen-space triangles and writes what every pixel got.
+/// Draw a file of screen-space triangles and write the values of every pixel as arrays.
 ///
-/// Writes coverage.npy, writes.npy (u32), id.npy (i32), z.npy (H,W) and rgb.npy (H,W,3) (f64 in 0 to 1), image.png and
-/// report.json; row 0 on top. Golden does not quantise z and rgb; golden and a machine with SHADOW add lit.npy (u8: 0 nothing written, 1 in shadow, 2 lit).
-/// With channels.extra = n also e0.npy and on, LSB of the channel's output: i64, golden's plane as f64, 0 where nothing was drawn.
+/// Files: coverage.npy, writes.npy (u32), id.npy (i32), z.npy (H,W) and rgb.npy (H,W,3) (f64 in 0 to 1), image.png
+/// and report.json; row 0 is on top. Golden does not quantise z and rgb. Golden and machines with SHADOW add
+/// lit.npy (u8: 0 nothing written, 1 in shadow, 2 lit). With channels.extra = n also e0.npy and so on, in LSB of
+/// the channel's output: i64, or f64 for golden's plane; 0 at pixels that no triangle covers.
 #[derive(clap::Args)]
 #[command(after_help = "Examples:
   edgewalk raster triangles.tri --out out/r
@@ -57,11 +58,11 @@ The triangle file (docs/triangle_file.md), one item a line, # comments:
 pub struct Args {
     /// The triangle file; - for the standard input
     file: PathBuf,
-    /// Sets the keys of the machine that the file asks for, as channels.extra, blend.kind, shadow.size or shade.kind; what
-    /// --set says stands
+    /// Set the keys of the machine that the file asks for, as channels.extra, blend.kind, shadow.size or
+    /// shade.kind; --set has the last word
     #[arg(long)]
     adapt: bool,
-    /// Who draws
+    /// Engine that draws
     #[arg(long, value_enum, default_value_t = Engine::Fast)]
     engine: Engine,
     /// Output directory
@@ -156,9 +157,10 @@ fn while_it_is_read(
 fn whole(file: &TriangleFile, engine: Engine, machine: &Plan, out: &Staging, talk: Talk) -> Result<Report> {
     let frame = file.whole()?;
     let (triangles, polygons) = (frame.triangles.len() as u64, frame.polygons.len() as u64);
+    let lines = frame.lines.len() as u64;
     let report = |band: &Raster| {
         let mut report = Report::new(file.name(), triangles, machine, band, Waits::Never);
-        report.drawn.polygons = polygons;
+        (report.drawn.polygons, report.drawn.lines) = (polygons, lines);
         report
     };
     let mut page = Page::new(out, machine, report);

@@ -17,10 +17,11 @@ use edgewalk_replay::{Lesson, Recording, Replay, Rules, Truth, Window, lesson, p
 use serde_json::json;
 use std::path::PathBuf;
 
-/// Records the machine cycle by cycle and writes one HTML file that shows it at work: open it in a browser, no network needed.
+/// Record the machine cycle by cycle and write one HTML file that shows it at work, without a network.
 ///
-/// Every unit with its registers and queues, the causes of all cycles, the picture as it fills; a click on a pixel goes to the
-/// cycle that wrote it. With a name that ends in .json the recording alone (docs/replay.md).
+/// The page has every unit with its registers and queues, the causes of all cycles, and the picture as it fills. A
+/// click on a pixel goes to the cycle that wrote it. A name that ends in .json gets the recording alone
+/// (docs/replay.md).
 #[derive(clap::Args)]
 #[command(after_help = "Examples:
   edgewalk replay sphere --set screen.width=64 --set screen.height=48 --triangles 200 --out out/sphere.html
@@ -30,22 +31,22 @@ use std::path::PathBuf;
 pub struct Args {
     #[command(flatten)]
     source: Source,
-    /// Draws the first N triangles of the input
+    /// Draw the first N triangles of the input
     #[arg(long, value_name = "N", default_value_t = 20)]
     triangles: usize,
-    /// First cycle that is shown
+    /// First cycle shown
     #[arg(long, value_name = "C", default_value_t = 0)]
     from: u64,
-    /// Last cycle that is shown; that in which the machine is at rest if left out
+    /// Last cycle shown; if left out, the cycle in which the machine comes to rest
     #[arg(long, value_name = "C")]
     to: Option<u64>,
-    /// Shows this many cycles
+    /// Number of cycles shown
     #[arg(long, conflicts_with = "to", value_parser = clap::value_parser!(u64).range(1..))]
     cycles: Option<u64>,
-    /// How the memory makes the machine wait: none, fixed, random, dram, with parameters as fixed:rd=2; or mixed, late
+    /// Stalls of the memory: none, fixed, random, dram, with parameters as fixed:rd=2; or mixed, late
     #[arg(long, value_name = "KIND", default_value = "none", value_parser = kind)]
     stalls: Waits,
-    /// Walks one triangle through all sections of the specification instead, every number beside the register that holds it
+    /// Walk one triangle through all sections of the specification instead, every number beside its register
     #[arg(long, conflicts_with_all = ["input", "shading", "triangles", "from", "to", "cycles", "stalls"])]
     lesson: bool,
     /// The page, .html, or the recording alone, .json
@@ -130,7 +131,7 @@ struct Shown {
 /// The input on the machine.
 fn drawn(args: &Args, asked_for: &MachineArgs) -> Result<Shown> {
     let (machine, frame) = args.source.on_its_screen(asked_for)?;
-    let of = frame.triangles.len();
+    let (of, all) = (frame.triangles.len(), frame.drawn());
     let frame = frame.first(args.triangles);
     let port = to_port(&frame, &machine)?;
     let (count, size) = (port.triangles.len() as u64, (machine.width, machine.height));
@@ -147,7 +148,7 @@ fn drawn(args: &Args, asked_for: &MachineArgs) -> Result<Shown> {
     let truth = truth::truth(&machine, &frame, &ids, recording.view.tokens());
     let (scene, triangles) = (args.source.input.clone(), triangles.into_owned());
     let command = Some(explaining(args, asked_for, of));
-    Ok(Shown { machine, scene, triangles, of: of + of_lights, recording, truth, command, lesson: None })
+    Ok(Shown { machine, scene, triangles, of: all + of_lights, recording, truth, command, lesson: None })
 }
 
 /// The command that explains a pixel of what is drawn, of an input with `of` triangles. It ends with `{x} {y}`.

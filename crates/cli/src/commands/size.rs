@@ -14,11 +14,13 @@ use serde_json::{Value, json};
 use std::fmt::Write as _;
 use std::path::PathBuf;
 
-/// Says how many fraction bits each channel needs: for every triangle in the guard band, and for those of the input.
+/// Prove how many fraction bits each channel needs: for every triangle in the guard band, and for those of the
+/// input.
 ///
-/// Both are proved, for an error of at most --error LSB of the output: N additions behind a pixel err by (N + 1)/2 units of
-/// the last fraction bit. Beside them: the fewest guard bits, and for each answer a triangle behind as many additions that errs
-/// by more with one bit fewer, drawn to see that it does, as witness_z_every.tri, witness_color_these.tri and so on; size.json has all of it.
+/// The error is at most --error LSB of the output. N additions behind a pixel err by (N + 1)/2 units of the last
+/// fraction bit. The report also gives the fewest guard bits. For each answer, a witness triangle exceeds the error
+/// with one bit fewer; it is drawn to show that. Witnesses are witness_z_every.tri, witness_color_these.tri and so
+/// on; size.json has the whole report.
 #[derive(clap::Args)]
 #[command(after_help = "Examples:
   edgewalk size teapot.obj
@@ -28,10 +30,10 @@ use std::path::PathBuf;
 pub struct Args {
     #[command(flatten)]
     source: Source,
-    /// Largest error of an output, LSB; above 0.5, which its rounding takes
+    /// Largest error of an output, LSB; above 0.5, the share of its rounding
     #[arg(long, default_value_t = 1.0, value_name = "LSB")]
     error: f64,
-    /// Folder of the witnesses
+    /// Folder of the witness triangles
     #[arg(long, value_name = "DIR", default_value = "out/size")]
     out: PathBuf,
 }

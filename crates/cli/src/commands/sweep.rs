@@ -26,11 +26,12 @@ use serde_json::Value;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-/// Draws inputs on many machines, and writes a row for each: errors beside golden, cycles by cause, and cells if asked for.
+/// Draw inputs on many machines and write a row for each: errors beside golden, cycles by cause, cells on request.
 ///
-/// Machines that differ in timing keys alone share their pixels. In --out: runs.jsonl (a row a line, appended as they come),
-/// runs.csv, best_NAME.toml for each objective, report.html, sweep.json. Ended at any time, the same command goes on where it was;
-/// rows that are there are not made again. A row says what `edgewalk render --json` says of its machine.
+/// Machines that differ in timing keys alone share their pixels. Files in --out: runs.jsonl (a row a line, appended
+/// as they come), runs.csv, best_NAME.toml for each objective, report.html, sweep.json. After an interruption the
+/// same command continues; existing rows are kept. A row holds the report of `edgewalk render --json` for its
+/// machine.
 #[derive(clap::Args)]
 #[command(
     args_conflicts_with_subcommands = true,
@@ -52,20 +53,20 @@ pub struct Args {
     part: Option<Part>,
     #[command(flatten)]
     what: What,
-    /// Runs the points again whose rows say so (repeatable)
+    /// Run the points with this status once more (repeatable)
     #[arg(long, value_enum, value_name = "STATUS")]
     retry: Vec<Retry>,
 }
 
 #[derive(clap::Subcommand)]
 enum Part {
-    /// Writes sweep.json and job scripts for parts of the sweep, and runs nothing
+    /// Write sweep.json and job scripts for parts of the sweep, without running any
     Plan(Box<PlanArgs>),
-    /// Runs a part of a planned sweep
+    /// Run a part of a planned sweep
     Run(RunArgs),
-    /// Puts the rows of all parts together
+    /// Merge the rows of all parts
     Merge(OutArgs),
-    /// Says what a row depends on, and which of it has changed since
+    /// List the dependencies of a row, and those that have changed
     Why(WhyArgs),
 }
 
@@ -78,27 +79,27 @@ struct What {
     /// A key and its values: key=a,b,c or key=lo..hi or key=lo..hi..step (repeatable)
     #[arg(long, value_name = "KEY=VALUES", required = true)]
     vary: Vec<String>,
-    /// How scenes and meshes are shaded on every machine: constant, constant-averaged, gouraud; phong and fast-phong on
-    /// machines with that shade.kind. Left out: on each machine as its shade.kind says, gouraud where that is none
+    /// Shading of scenes and meshes on every machine: constant, constant-averaged, gouraud; phong and fast-phong on
+    /// machines with that shade.kind. If left out, the shade.kind of each machine decides, with gouraud for none
     #[arg(long, value_name = "SHADING", value_parser = clap::builder::PossibleValuesParser::new(SHADINGS.map(|of| of.0)))]
     shading: Option<String>,
-    /// A memory that every machine is run with: none, fixed, random, dram, with parameters as fixed:rd=2 (repeatable)
+    /// Stalls of a memory that every machine runs with: none, fixed, random, dram, with parameters as fixed:rd=2
+    /// (repeatable)
     #[arg(long, value_name = "KIND")]
     stalls: Vec<String>,
-    /// Which of several memories counts in bests and fronts: worst (for each objective), sum (of the cycles), or one of
-    /// --stalls
+    /// Memory that counts in bests and fronts: worst (for each objective), sum (of the cycles), or one of --stalls
     #[arg(long, value_name = "WHICH", default_value = Judge::WORST)]
     judge: String,
-    /// Only so many of the machines
+    /// Number of machines to take at random
     #[arg(long, value_name = "N")]
     sample: Option<u32>,
-    /// Which, with --sample
+    /// Seed of --sample
     #[arg(long, value_name = "S", requires = "sample")]
     seed: Option<u64>,
-    /// Does not simulate points without a proved bound of at most so many LSB for the triangles of the input
+    /// Skip points without a proved bound of at most this many LSB for the input's triangles
     #[arg(long, value_name = "LSB")]
     bound: Option<f64>,
-    /// What is best (repeatable)
+    /// Objective of bests and fronts (repeatable)
     #[arg(long, value_name = "NAME")]
     objective: Vec<String>,
     #[command(flatten)]
@@ -112,7 +113,7 @@ struct What {
 struct PlanArgs {
     #[command(flatten)]
     what: What,
-    /// Parts; a part should take two minutes or more
+    /// Number of parts; a part should take two minutes or more
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=10000))]
     chunks: u32,
 }
@@ -122,10 +123,10 @@ struct RunArgs {
     /// Folder of the sweep
     #[arg(long, value_name = "DIR")]
     out: PathBuf,
-    /// Which part, from 0; SLURM_ARRAY_TASK_ID or HQ_TASK_ID if left out
+    /// Number of the part, from 0; SLURM_ARRAY_TASK_ID or HQ_TASK_ID if left out
     #[arg(long, value_name = "I")]
     chunk: Option<u32>,
-    /// Runs the points again whose rows say so (repeatable)
+    /// Run the points with this status once more (repeatable)
     #[arg(long, value_enum, value_name = "STATUS")]
     retry: Vec<Retry>,
     #[command(flatten)]
@@ -151,9 +152,9 @@ struct WhyArgs {
 /// What may be tried again.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
 enum Retry {
-    /// What could not be drawn, or a tool failed on
+    /// Points that could not be drawn, or that a tool failed on
     Failed,
-    /// What a tool took too long for
+    /// Points that exceeded the time limit of a tool
     Timeout,
 }
 

@@ -21,14 +21,16 @@ use std::path::PathBuf;
 use std::time::Duration;
 use table::Report;
 
-/// Synthesises the machine, or a part of it, for FPGAs: cells by unit, packed cells, clock over seeds, critical path.
+/// Synthesise the machine, or a part of it, for FPGAs: cells by unit, packed cells, clock over seeds, critical
+/// path.
 ///
-/// Yosys and nextpnr see the emitted Verilog in a harness that leaves clk, rst and two serial pins; its cells are counted
-/// apart. What a target does not give (it does not fit, a tool is missing) is null in the JSON, with the reason; only where
-/// no target gives anything the command fails. Results of the tools are kept in a cache, by Verilog, versions and seed;
-/// removing it is always safe.
+/// Yosys and nextpnr see the emitted Verilog in a harness that leaves clk, rst and two serial pins. The cells of
+/// the harness are counted apart. A figure that a target cannot give is null in the JSON, with the reason: the
+/// design does not fit, or a tool is missing. The command fails only if no target gives any figure. Results of the
+/// tools are cached by Verilog, versions and seed; the cache may be removed at any time.
 ///
-/// Tools for ice40: apt-get install yosys nextpnr-ice40. For ecp5: two wheels, whose commands are printed where they are missing.
+/// Tools for ice40: apt-get install yosys nextpnr-ice40. Tools for ecp5 are two wheels; the command prints how to
+/// install them.
 #[derive(clap::Args)]
 #[command(after_help = "Examples:
   edgewalk synth
@@ -36,25 +38,25 @@ use table::Report;
   edgewalk synth --unit span --seeds 1 --set interpolator.adders=1
   edgewalk synth --target ecp5-25 --out out/synth")]
 pub struct Args {
-    /// machine, engine (all but setup), or a unit: setup, edge, span, pixel, depth, and those that this machine has beside them
+    /// machine, engine (all units but setup), or the name of a unit of this machine
     #[arg(long, value_name = "UNIT", default_value = "machine")]
     unit: String,
     /// Device: ice40-hx8k, ice40-up5k, ecp5-25 (repeatable)
     #[arg(long, value_name = "TARGET", default_value = "ice40-hx8k", value_parser = target)]
     target: Vec<Target>,
-    /// Places and routes with the seeds 1 to N
+    /// Place and route with the seeds 1 to N
     #[arg(long, default_value_t = 5, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1000))]
     seeds: u32,
-    /// Tools that run at once; as many as there are cores if left out
+    /// Tools that run at once; the number of cores if left out
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
     jobs: Option<u16>,
-    /// Seconds that each run of a tool may take
+    /// Time limit of each run of a tool, seconds
     #[arg(long, default_value_t = 3600, value_name = "SECONDS", value_parser = clap::value_parser!(u64).range(1..))]
     limit: u64,
-    /// Keeps results of the tools here; in $XDG_CACHE_HOME/edgewalk/synth or ~/.cache/edgewalk/synth if left out
+    /// Folder of the cache; $XDG_CACHE_HOME/edgewalk/synth or ~/.cache/edgewalk/synth if left out
     #[arg(long, value_name = "DIR")]
     cache: Option<PathBuf>,
-    /// Writes the Verilog that the tools saw and synthesis.json here
+    /// Folder for synthesis.json and the Verilog that the tools saw
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
 }

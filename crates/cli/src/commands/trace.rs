@@ -15,9 +15,10 @@ use std::fs::File;
 use std::io::BufWriter;
 use std::path::PathBuf;
 
-/// Runs the machine's netlist and writes the waveform of every signal that can change, as VCD or FST by the file's ending.
+/// Run the machine's netlist and write the waveform of every signal that can change, as VCD or FST.
 ///
-/// `activity_name` says the cause of each cycle in words: as text in a VCD, as ASCII in an FST.
+/// The ending of the file chooses the format. `activity_name` holds the cause of each cycle in words: as text in a
+/// VCD, as ASCII in an FST.
 #[derive(clap::Args)]
 #[command(after_help = "Examples:
   edgewalk trace sphere --out out/sphere.fst --triangles 20
@@ -28,10 +29,10 @@ pub struct Args {
     /// Output file, .vcd or .fst
     #[arg(long, value_name = "FILE")]
     out: PathBuf,
-    /// Draws this many triangles of the input
+    /// Draw this many triangles of the input
     #[arg(long, default_value_t = 10)]
     triangles: usize,
-    /// Stops after this many cycles
+    /// Stop after this many cycles
     #[arg(long, default_value_t = 20_000)]
     cycles: u64,
 }

@@ -12,10 +12,11 @@ use edgewalk_vectors::{SUITES, StallKind, Suite, Tables, Unit};
 use serde_json::json;
 use std::path::PathBuf;
 
-/// Writes test vectors, a directory a suite and unit, that run as they are in Icarus and Verilator.
+/// Write test vectors with benches for Icarus and Verilator, a directory for each suite and unit.
 ///
-/// With an input its triangles are the suite. `make HDL=mine.v` in a directory replays it into another design with the same
-/// ports, `make CHECK_CYCLES=0` into one with other timing: then order and values count, and no status.
+/// With an input, its triangles are the suite. `make HDL=mine.v` in a directory replays the vectors into another
+/// design with the same ports. `make CHECK_CYCLES=0` is for a design with other timing: order and values count,
+/// cycles and status do not.
 #[derive(clap::Args)]
 #[command(after_help = "Examples:
   edgewalk vectors --out out/vectors
@@ -27,20 +28,22 @@ pub struct Args {
     /// A built-in scene, a scene file (.toml), a mesh (.obj, .gltf, .glb) or a triangle file (.tri) whose triangles are a suite
     #[arg(value_name = "SCENE|MESH|FILE.tri")]
     input: Option<String>,
-    /// Sets the keys of the machine that the input asks for; what --set says stands
+    /// Set the keys of the machine that the input asks for; --set has the last word
     #[arg(long, requires = "input")]
     adapt: bool,
-    /// Takes this many triangles of the input, spread over it evenly; all of them if left out
+    /// Take this many triangles of the input, evenly spread; all of them if left out
     #[arg(long, requires = "input", value_parser = clap::value_parser!(u64).range(1..))]
     triangles: Option<u64>,
-    /// Suites: hazards, corners, random, sphere, depth_never to depth_always, depth_unwritten, with BLEND blend_add and
-    /// color_unwritten, with SHADOW light and light_off, own_map and own_picture where it draws its map, with SHADE shade; without an input all of them if left out
+    /// Suites: hazards, corners, random, sphere, depth_never to depth_always, depth_unwritten; all of them if left
+    /// out. Machines with BLEND have blend_add and color_unwritten; with SHADOW light and light_off; with
+    /// shadow.own_pass own_map and own_picture; with SHADE shade
     #[arg(long, value_name = "NAME")]
     suite: Vec<String>,
-    /// Units: machine, setup, edge, span, term, pixel, texel, bump, normal, lamp, shade, project, shadow, depth, blend; all that a suite is for if left out
+    /// Units: machine, setup, edge, span, term, pixel, texel, bump, normal, lamp, shade, project, shadow, depth,
+    /// blend; all units of the suite if left out
     #[arg(long, value_name = "NAME", value_parser = unit)]
     unit: Vec<Unit>,
-    /// How the bench makes the design wait: none, mixed, late; what suits each suite if left out
+    /// Stalls by the bench: none, mixed, late; the suite's own if left out
     #[arg(long, value_parser = stalls)]
     stalls: Option<StallKind>,
     /// Seed of the random suite and of the stalls
@@ -49,7 +52,7 @@ pub struct Args {
     /// Triangles of the random suite
     #[arg(long, default_value_t = 100)]
     count: u64,
-    /// Omits the tables for people, *.csv: more than half of the bytes
+    /// Omit the tables for people, *.csv, which are more than half of the bytes
     #[arg(long)]
     no_csv: bool,
     /// Output directory

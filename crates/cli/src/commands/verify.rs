@@ -24,10 +24,11 @@ use std::iter;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-/// Verifies the machine: model against netlist port by port and cycle by cycle, then its Verilog in Icarus and Verilator.
+/// Verify the machine: model against netlist at every port in every cycle, then its Verilog in Icarus and
+/// Verilator.
 ///
-/// The directed suites go through the machine and each of its units, those of the depth functions through the machine and
-/// DEPTH, the input's triangles through the machine.
+/// The directed suites go through the machine and each of its units. The suites of the depth functions go through
+/// the machine and DEPTH. The input's triangles go through the machine.
 #[derive(clap::Args)]
 #[command(after_help = "Examples:
   edgewalk verify sphere
@@ -36,20 +37,19 @@ use std::time::Duration;
 pub struct Args {
     #[command(flatten)]
     source: Source,
-    /// Takes this many triangles of the input, spread over it evenly
+    /// Take this many triangles of the input, evenly spread
     #[arg(long, default_value_t = 50, value_parser = clap::value_parser!(u64).range(1..))]
     triangles: u64,
-    /// How the bench makes the design wait: none, mixed, late; what suits each suite if left out
+    /// Stalls by the bench: none, mixed, late; the suite's own if left out
     #[arg(long, value_parser = stalls)]
     stalls: Option<StallKind>,
     /// Seconds that a simulator may compile, and again that it may run
     #[arg(long, default_value_t = 300, value_parser = clap::value_parser!(u64).range(1..))]
     limit: u64,
-    /// Compares model and netlist only
+    /// Compare model and netlist only
     #[arg(long)]
     no_simulators: bool,
-    /// Folder in which a replay of the machine is left, opened at the first difference, for each suite in which model and
-    /// netlist differ
+    /// Folder of replay pages: one for each suite in which model and netlist differ, opened at the first difference
     #[arg(long, value_name = "DIR", default_value = "out/verify")]
     out: PathBuf,
 }

@@ -156,9 +156,9 @@ fn every_mesh_agrees_with_the_golden_picture() {
     );
     if meshes.written.is_some() {
         assert_eq!((triangles, closed), (files::TRIANGLES, files::CLOSED));
-        let readme = include_str!("../../../../README.md");
+        let results = include_str!("../../../../docs/results.md");
         let row = format!("at most {:.3} LSB of 24 and {:.3} of 8 bits", worst[0], worst[1]);
-        assert!(readme.contains(&row), "README does not say: {row}");
+        assert!(results.contains(&row), "docs/results.md does not say: {row}");
     }
 }
 

@@ -42,7 +42,7 @@ impl Grid {
     }
 
     /// The first pixel whose centre is not before `place`, either axis: rounded up.
-    pub(super) fn first_pixel(self, place: i64) -> i64 {
+    pub(crate) fn first_pixel(self, place: i64) -> i64 {
         -(self.centre - place).div_euclid(self.pitch())
     }
 
@@ -55,6 +55,12 @@ impl Grid {
     pub(crate) fn pixel_of_quotient(self, numerator: i64, denominator: i64) -> i64 {
         let edge = self.centre - self.pitch() / 2;
         (numerator - edge * denominator).div_euclid(self.pitch() * denominator)
+    }
+
+    /// The pixel that holds the quotient, or ends there: on the border of two pixels the one before. Numbers as above.
+    pub(crate) fn pixel_before_quotient(self, numerator: i64, denominator: i64) -> i64 {
+        let edge = self.centre - self.pitch() / 2;
+        -(edge * denominator - numerator).div_euclid(self.pitch() * denominator) - 1
     }
 
     /// In pixels, exact.

@@ -3,8 +3,8 @@
 use edgewalk_machine::key::Domain;
 use edgewalk_machine::keys::KEYS;
 use edgewalk_machine::{
-    BlendKind, Fill, MAX_CHANNELS, Machine, Plan, Precision, ShadeColour, ShadeLight, ShadowLight, Texture,
-    Transmits,
+    BlendKind, Fill, Lines, MAX_CHANNELS, Machine, Plan, Precision, ShadeColour, ShadeLight, ShadowLight,
+    Texture, Transmits,
 };
 use rand::Rng;
 use rand::seq::IndexedRandom;
@@ -62,6 +62,9 @@ fn draw(rng: &mut Pcg64Mcg) -> Machine {
     machine.tag_bits = *[0, 1, 5, 32].choose(rng).expect("four");
     if machine.fill == Fill::Textbook {
         machine.subpixel_bits = 0;
+    }
+    if machine.fill == Fill::Textbook || machine.subpixel_bits == 0 || machine.shade.is_there() {
+        machine.polygon.lines = Lines::No; // a line has no half pixel there, or nobody who walks up
     }
     let within = |p: &mut Precision| p.vertex_fraction = p.vertex_fraction.min(p.fraction);
     within(&mut machine.z);

@@ -45,11 +45,11 @@ fn ports(plan: &Plan) -> Ports {
             enable: None,
             latency: plan.blend.latency,
         }],
-        constants: vec![Field::count("blend_add", 1, "0 mix by kt, 1 add and saturate")],
+        constants: vec![Field::count("blend_add", 1, "0 mix by kt, 1 add and saturate; stable while busy")],
         status: vec![
-            Status::new("color_hazard", "the fragment must wait for one in flight").during("pass_valid"),
+            Status::new("color_hazard", "the offered fragment waits for one in flight").during("pass_valid"),
             Status::new("color_full", "the queue is full"),
-            Status::new("occupied", "something is in flight"),
+            Status::new("occupied", "a fragment is in flight"),
         ],
         ..Ports::default()
     }
@@ -68,9 +68,9 @@ fn forwards(plan: &Plan) -> bool {
 }
 
 events! {
-    opaque = "fragments that take no colour from their pixel, so that none is read" if there;
-    opaque_behind = "such fragments while one that does take one of the same pixel is in flight" if passes_others;
-    behind_opaque = "fragments that take a colour from one in flight that took none" if forwards;
+    opaque = "fragments that need no old colour, so none is read" if there;
+    opaque_behind = "fragments without an old colour that meet one of the same pixel in flight that needs it" if passes_others;
+    behind_opaque = "fragments that take a colour from one in flight without an old colour" if forwards;
     color_drain_stall = "cycles in which BLEND waits at a fence" if drains;
     color_interlock_stall = "cycles in which BLEND waits for an address in flight" if interlocks;
     color_queue_full = "cycles in which a fragment waits for BLEND's queue" if there;
@@ -78,8 +78,8 @@ events! {
     color_write_stall = "cycles in which a write waits for the colour memory" if there;
     color_head_wait = "cycles in which the oldest fragment waits for a result of its pixel" if forwards;
     color_forward_queue = "fragments in the queue that took the colour from a result" if forwards;
-    color_forward_entry = "fragments entering the queue that took it from a result of the same cycle" if forwards;
-    color_forward_write = "fragments entering the queue that took it from the write register" if forwards;
+    color_forward_entry = "fragments entering the queue that took the colour from a result of the same cycle" if forwards;
+    color_forward_write = "fragments entering the queue that took the colour from the write register" if forwards;
     color_forward_used = "fragments blended with a colour that was forwarded" if forwards;
 }
 

@@ -29,7 +29,7 @@ fn ports(plan: &Plan) -> Ports {
     Ports {
         takes: Some(Link { ready: Ready::Always, ..Link::new("frag", tokens::textured(plan)) }),
         gives: Some(Link::new("bumped", tokens::bumped(plan))),
-        status: vec![Status::new("occupied", "a fragment is in a stage")],
+        status: vec![Status::new("occupied", "a stage holds a fragment")],
         ..Ports::default()
     }
 }
@@ -37,7 +37,7 @@ fn ports(plan: &Plan) -> Ports {
 events! {
     slope_up = "cosines that the relief makes larger" if there;
     slope_down = "cosines that the relief makes smaller" if there;
-    slope_lowest = "slopes of the lowest number that there is" if there;
+    slope_lowest = "slopes with the lowest number of their format" if there;
     bump_cut = "cosines cut at the end of their bits" if there;
     square_cut = "N·N cut at the end of its bits" if normalises;
     bump_stall = "cycles in which all stages stand still" if there;

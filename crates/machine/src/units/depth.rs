@@ -26,14 +26,14 @@ fn ports(plan: &Plan) -> Ports {
         Field::count(
             "depth_func",
             3,
-            "0 never 1 less 2 equal 3 lequal 4 greater 5 notequal 6 gequal 7 always: new ? old",
+            "new ? old: 0 never 1 less 2 equal 3 lequal 4 greater 5 notequal 6 gequal 7 always",
         ),
-        Field::count("depth_write", 1, "depths of passing fragments are written"),
+        Field::count("depth_write", 1, "write depths of fragments that pass"),
     ];
     // Without BLEND one write has it all; with BLEND depths and colours part.
     let forks = plan.blend.is_there();
     let (gives, writes) = if forks {
-        constants.push(Field::count("color_write", 1, "colours of passing fragments go on to BLEND"));
+        constants.push(Field::count("color_write", 1, "send colours of fragments that pass to BLEND"));
         let zwr = Link::new("zwr", tokens::depth_write(plan));
         let pass = Link { ready: Ready::WhileValid, ..Link::new("pass", tokens::passed(plan)) };
         (pass, vec![zwr])
@@ -55,9 +55,9 @@ fn ports(plan: &Plan) -> Ports {
         }],
         constants,
         status: vec![
-            Status::new("hazard", "the fragment must wait for one in flight").during("frag_valid"),
+            Status::new("hazard", "the offered fragment waits for one in flight").during("frag_valid"),
             Status::new("full", "the in-flight queue is full"),
-            Status::new("occupied", "something is in flight"),
+            Status::new("occupied", "a fragment is in flight"),
         ],
         ..Ports::default()
     }
@@ -91,7 +91,7 @@ events! {
     memory_stall = "cycles in which a read waits for the memory" if always;
     write_stall = "cycles in which a write waits for the memory" if always;
     forward_compare = "fragments in the queue, or entering it, that took their old depth from a compare" if forwards_in_queue;
-    forward_write = "fragments entering the queue that took it from the write register" if forwards;
+    forward_write = "fragments entering the queue that took their old depth from the write register" if forwards;
     forward_used = "compares that used a forwarded depth" if forwards;
     depth_fail = "fragments that failed the compare" if always;
     depth_first = "depths written before BLEND took the colour" if forks;

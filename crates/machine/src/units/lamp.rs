@@ -28,10 +28,10 @@ fn ports(plan: &Plan) -> Ports {
         gives: Some(Link::new("normed", tokens::cosines(plan))),
         memory: vec![MemoryPort {
             name: "roots",
-            read: Link::new("rrd", vec![Field::count("addr", 10, "R, then C from 256, A from 512 on")]),
+            read: Link::new("rrd", vec![Field::count("addr", 10, "entry: R from 0, C from 256, A from 512")]),
             data: Link::new(
                 "rdata",
-                vec![Field::count("word", plan.root_word_bits(), "v of 17 bits, slope of 16")],
+                vec![Field::count("word", plan.root_word_bits(), "{v: 17 bits, slope: 16 bits}")],
             ),
             write: "",
             word: "",
@@ -39,9 +39,9 @@ fn ports(plan: &Plan) -> Ports {
             latency: plan.shade.root_latency,
         }],
         status: vec![
-            Status::new("table_wait", "a fragment waits for the tables"),
-            Status::new("working", "a fragment is inside that is not done"),
-            Status::new("occupied", "a fragment is inside"),
+            Status::new("table_wait", "the offered fragment waits for the tables"),
+            Status::new("working", "the unit works on a fragment"),
+            Status::new("occupied", "the unit holds a fragment"),
         ],
         ..Ports::default()
     }
@@ -49,11 +49,11 @@ fn ports(plan: &Plan) -> Ports {
 
 events! {
     lamp_read = "times that the tables of the light were fetched" if there;
-    lamp_read_stall = "cycles in which a read waits for them" if there;
-    lamp_near = "fragments less than half as far as the unit of the ways" if there;
+    lamp_read_stall = "cycles in which a read waits for the tables" if there;
+    lamp_near = "fragments nearer to the light than half the unit of length" if there;
     lamp_beside = "fragments outside the light's cone" if there;
-    lamp_short = "roots of less than the tables reach down to" if there;
+    lamp_short = "roots of arguments below the tables' range" if there;
     lamp_cut = "numbers cut at the end of their bits" if there;
-    lamp_wait = "cycles in which a fragment waits until another is done" if there;
-    lamp_stall = "cycles in which a fragment that is done waits" if there;
+    lamp_wait = "cycles in which a fragment waits for the one in the unit" if there;
+    lamp_stall = "cycles in which a finished fragment waits" if there;
 }

@@ -7,10 +7,13 @@ use crate::unit::{always, events};
 
 /// Outputs that mean something in every cycle.
 pub(crate) fn status() -> Vec<Status> {
-    let cause = Field::count("activity", Activity::BITS, "the cause of the cycle");
-    vec![Status { field: cause, during: None }, Status::new("idle", "nothing to do")]
+    let cause = Field::count("activity", Activity::BITS, "cause of the cycle");
+    vec![
+        Status { field: cause, during: None },
+        Status::new("idle", "no triangle, fragment or write is inside"),
+    ]
 }
 
 events! {
-    setup_overlap = "triangles taken in while PIXEL draws" if always;
+    setup_overlap = "triangles taken while PIXEL draws" if always;
 }

@@ -28,16 +28,16 @@ fn ports(plan: &Plan) -> Ports {
         gives: Some(Link::new("normed", tokens::cosines(plan))),
         memory: vec![MemoryPort {
             name: "roots",
-            read: Link::new("rrd", vec![Field::count("addr", 8, "k: of the root of k/256")]),
-            data: Link::new("rdata", vec![Field::count("word", 27, "v of 17 bits, slope of 10")]),
+            read: Link::new("rrd", vec![Field::count("addr", 8, "k, for 1/sqrt(k/256)")]),
+            data: Link::new("rdata", vec![Field::count("word", 27, "{v: 17 bits, slope: 10 bits}")]),
             write: "",
             word: "",
             enable: None,
             latency: plan.shade.root_latency,
         }],
         status: vec![
-            Status::new("table_wait", "a fragment waits for the roots"),
-            Status::new("occupied", "a fragment is in a stage"),
+            Status::new("table_wait", "the offered fragment waits for the roots"),
+            Status::new("occupied", "a stage holds a fragment"),
         ],
         ..Ports::default()
     }
@@ -48,6 +48,6 @@ events! {
     root_read_stall = "cycles in which a read waits for the roots" if there;
     normal_short = "normals shorter than half" if there;
     normal_long = "normals of length 1, or longer" if there;
-    cosine_cut = "cosines beyond what SHADE takes" if there;
+    cosine_cut = "cosines beyond the ends of SHADE's tables" if there;
     normal_stall = "cycles in which all stages stand still" if there;
 }

@@ -24,10 +24,10 @@ fn ports(plan: &Plan) -> Ports {
         held_in: vec![Held { name: "inc", fields: tokens::held(plan), beside: "span" }],
         constants: light_pass(plan).into_iter().collect(),
         status: vec![
-            Status::new("active", "a span is being drawn"),
-            Status::new("visible", "its pixel is on the screen").during("active"),
-            Status::new("advance", "nothing waits at the output"),
-            Status::new("occupied", "a fragment is in an output stage"),
+            Status::new("active", "a span is in progress"),
+            Status::new("visible", "the current pixel is on the screen").during("active"),
+            Status::new("advance", "the output is free or taken: the unit advances"),
+            Status::new("occupied", "an output stage holds a fragment"),
         ],
         ..Ports::default()
     }

@@ -37,9 +37,9 @@ fn rounds_to_end(plan: &Plan) -> bool {
 }
 
 fn ports(plan: &Plan) -> Ports {
-    let occupied = "a fragment is in a stage, or divided";
+    let occupied = "the unit holds a fragment";
     let dividing =
-        serial(plan).then(|| Status::new("dividing", "rows are left to be done, no fragment can come"));
+        serial(plan).then(|| Status::new("dividing", "the division is not done; no fragment is taken"));
     Ports {
         takes: Some(Link::new("frag", tokens::tinted(plan))),
         gives: Some(Link::new("projected", tokens::projected(plan))),

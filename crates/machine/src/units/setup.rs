@@ -34,5 +34,7 @@ events! {
     major_right = "triangles whose major edge lies right" if always;
     no_upper_part = "triangles without an upper part on the screen, n1 = 0" if always;
     no_lower_part = "triangles without a lower part on the screen, n2 = 0" if always;
+    line_flat = "lines along a row of pixels, with x and y exchanged, that have one on the screen" if |plan| plan.polygon.has_lines();
+    line_steep = "lines along a column of pixels that have one on the screen" if |plan| plan.polygon.has_lines();
     knee_on_line = "triangles of two parts whose knee lies on a line of pixel centres" if always;
 }

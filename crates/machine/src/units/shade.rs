@@ -32,15 +32,15 @@ fn ports(plan: &Plan) -> Ports {
         memory: vec![MemoryPort {
             name: "tables",
             read: Link::new("srd", vec![tokens::table_address(plan)]),
-            data: Link::new("sdata", vec![Field::count("word", bits, "diffuse light, highlight")]),
+            data: Link::new("sdata", vec![Field::count("word", bits, "{diffuse light, highlight}")]),
             write: "",
             word: "",
             enable: None,
             latency: plan.shade.table_latency,
         }],
         status: vec![
-            Status::new("table_wait", "a fragment waits for the tables of its material"),
-            Status::new("occupied", "a fragment is in a stage"),
+            Status::new("table_wait", "the offered fragment waits for its material's tables"),
+            Status::new("occupied", "a stage holds a fragment"),
         ],
         ..Ports::default()
     }
@@ -52,14 +52,14 @@ fn changes(plan: &Plan) -> bool {
 
 events! {
     tables_read = "materials whose tables were fetched" if there;
-    material_change = "materials that another one took the place of" if changes;
+    material_change = "materials replaced by another" if changes;
     tables_drain = "cycles in which new tables wait for fragments of the old ones" if changes;
     table_read_stall = "cycles in which a read waits for the memory of the tables" if there;
     diffuse_below = "cosines N·L below 0, a light a fragment" if there;
     diffuse_above = "cosines N·L beyond the table's end" if there;
     highlight_below = "cosines N·H before the table's beginning" if there;
     highlight_above = "cosines N·H beyond the table's end" if there;
-    highlight_unlit = "highlights that are dropped, as the light is below the horizon" if there;
+    highlight_unlit = "highlights dropped because the light is below the horizon" if there;
     color_saturated = "colours cut to the largest" if there;
     shade_stall = "cycles in which all stages stand still" if there;
 }

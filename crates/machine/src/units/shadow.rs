@@ -39,9 +39,9 @@ fn several(plan: &Plan) -> bool {
 fn ports(plan: &Plan) -> Ports {
     // Whether a texel has to be read is asked of fragments only.
     let frag = Link { ready: Ready::WhileValid, ..Link::new("frag", tokens::projected(plan)) };
-    let mut constants = vec![Field::count("shadow_on", 1, "the map counts; else all is lit")];
+    let mut constants = vec![Field::count("shadow_on", 1, "1: look up the map; 0: every fragment is lit")];
     if plan.shadow.gate == Gate::Scale {
-        let doc = "what a colour in shadow is multiplied by, all ones for 1";
+        let doc = "factor of a colour in shadow, all ones for 1";
         constants.push(Field::count("ambient", plan.color.bits, doc));
     }
     constants.extend(light_pass(plan));
@@ -61,24 +61,24 @@ fn ports(plan: &Plan) -> Ports {
         constants,
         status: vec![
             Status::new("shadow_full", "the queue is full"),
-            Status::new("occupied", "a fragment waits for its texel, or to be taken"),
+            Status::new("occupied", "a fragment waits for its texel, or at the output"),
         ],
         ..Ports::default()
     }
 }
 
 events! {
-    shadow_off = "fragments that were not looked up, as the map does not count" if there;
+    shadow_off = "fragments not looked up because the map is off" if there;
     own_map = "fragments of the light's own pass: none is looked up" if draws_map;
     outside_map = "fragments outside the map: lit" if there;
     before_map = "fragments nearer to the light than the map begins: lit" if there;
     behind_map = "fragments farther from the light than the map ends: in shadow" if there;
-    texel_lit = "fragments that their texel finds lit" if there;
-    texel_shadow = "fragments that their texel finds in shadow" if there;
+    texel_lit = "fragments lit by their texel" if there;
+    texel_shadow = "fragments in shadow by their texel" if there;
     texel_tie = "fragments exactly as far as their texel: lit" if there;
-    texel_glass = "fragments that their texel finds lit through what transmits: not all of the light is left" if transmits;
-    texel_wait = "cycles in which a fragment could go on but for its texel" if there;
+    texel_glass = "fragments lit through glass: a share of the light is left" if transmits;
+    texel_wait = "cycles in which the oldest fragment waits for its texel alone" if there;
     shadow_queue_full = "cycles in which a fragment waits for SHADOW's queue" if there;
     map_stall = "cycles in which a read waits for the map" if there;
-    known_behind_read = "fragments that need no texel and come behind one that waits for its own" if several;
+    known_behind_read = "fragments without a texel behind one that waits for its texel" if several;
 }

@@ -38,13 +38,16 @@ fn ports(plan: &Plan) -> Ports {
         memory: vec![MemoryPort {
             name: "terms",
             read: Link::new("trd", vec![tokens::term_address(plan)]),
-            data: Link::new("tdata", vec![Field::count("word", bits, "of a record; the low bits count")]),
+            data: Link::new(
+                "tdata",
+                vec![Field::count("word", bits, "word of a record; the low bits count")],
+            ),
             write: "",
             word: "",
             enable: None,
             latency: plan.shade.term_latency,
         }],
-        status: vec![Status::new("term_wait", "a span is there, the walk not yet")],
+        status: vec![Status::new("term_wait", "the offered span waits for the walk")],
         ..Ports::default()
     }
 }

@@ -41,7 +41,7 @@ fn ports(plan: &Plan) -> Ports {
         }],
         status: vec![
             Status::new("texel_full", "the queue is full"),
-            Status::new("occupied", "a fragment waits for its texel, or to be taken"),
+            Status::new("occupied", "a fragment waits for its texel, or at the output"),
         ],
         ..Ports::default()
     }

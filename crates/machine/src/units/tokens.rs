@@ -16,17 +16,17 @@ pub const EDGES: [&str; 3] = ["major", "minor1", "minor2"];
 pub fn results(plan: &Plan) -> &'static [(&'static str, &'static str)] {
     match plan.fill {
         Fill::Exact => &[
-            ("start", "at the first pixel of the first line"),
-            ("d0", "to the next line, edge without carry"),
-            ("d1", "to the next line, edge with carry"),
-            ("g", "to the next pixel of the span"),
+            ("start", "value at the first pixel of the first line"),
+            ("d0", "step to the next line, edge without carry"),
+            ("d1", "step to the next line, edge with carry"),
+            ("g", "step to the next pixel of the span"),
         ],
         Fill::Textbook => &[
-            ("start_a", "on the left edge, first line of part 1"),
-            ("d_a", "to the next line, part 1"),
-            ("start_b", "on the left edge, first line of part 2"),
-            ("d_b", "to the next line, part 2"),
-            ("g", "to the next pixel of the span"),
+            ("start_a", "value on the left edge, first line of part 1"),
+            ("d_a", "step to the next line, part 1"),
+            ("start_b", "value on the left edge, first line of part 2"),
+            ("d_b", "step to the next line, part 2"),
+            ("g", "step to the next pixel of the span"),
         ],
     }
 }
@@ -42,12 +42,12 @@ pub fn remainder_bits(plan: &Plan) -> u32 {
 
 /// The tag, if the machine has one.
 fn tag(plan: &Plan) -> Option<Field> {
-    (plan.tag_bits > 0).then(|| Field::count("tag", plan.tag_bits, "of the triangle"))
+    (plan.tag_bits > 0).then(|| Field::count("tag", plan.tag_bits, "tag of the triangle"))
 }
 
 /// k_t, one bit more than below 1.
 fn kt(plan: &Plan) -> Field {
-    Field::count("kt", plan.blend.kt_bits + 1, format!("2^{} stands for 1.0", plan.blend.kt_bits))
+    Field::count("kt", plan.blend.kt_bits + 1, format!("kt, 2^{} for 1.0", plan.blend.kt_bits))
 }
 
 /// The k_t of the triangle, if it has one.
@@ -59,10 +59,10 @@ fn triangle_kt(plan: &Plan) -> Option<Field> {
 #[must_use]
 pub fn record(plan: &Plan) -> Option<Field> {
     let bits = plan.shade.record_bits;
-    plan.shade.is_there().then(|| Field::count("record", bits, "of the triangle's terms"))
+    plan.shade.is_there().then(|| Field::count("record", bits, "record with the triangle's terms"))
 }
 
-/// A triangle at the port: three vertices, its k_t and the tag.
+/// A triangle or line at the port: three vertices, its k_t, its role and the tag.
 #[must_use]
 pub fn triangle(plan: &Plan) -> Vec<Field> {
     let position = Format::signed(plan.guard_bits + 1, plan.subpixel_bits);
@@ -74,8 +74,20 @@ pub fn triangle(plan: &Plan) -> Vec<Field> {
         fields.extend(plan.channels().iter().map(value));
     }
     fields.extend(triangle_kt(plan));
+    fields.extend(thin(plan));
     fields.extend(tag(plan));
     fields
+}
+
+/// What tells a line from a triangle, in a machine that takes lines.
+fn thin(plan: &Plan) -> Vec<Field> {
+    if !plan.polygon.has_lines() {
+        return Vec::new();
+    }
+    vec![
+        Field::count("thin", 1, "a line, a pixel wide"),
+        Field::count("flat", 1, "of a line: x and y have changed places"),
+    ]
 }
 
 /// The state and step of one edge: C, R, q, f and, unless it is the constant 2^F, M.
@@ -89,7 +101,7 @@ fn edge(plan: &Plan, edge: &str) -> Vec<Field> {
     let mut fields = vec![
         Field::signed(name("c"), column, "first column right of the edge"),
         Field::count(name("r"), remainder, format!("distance from the edge to that column, {unit}")),
-        Field::signed(name("q"), column, "whole columns a line"),
+        Field::signed(name("q"), column, "whole columns a line, step of c"),
         Field::count(name("f"), remainder, format!("{unit} a line")),
     ];
     if plan.edge_kind == EdgeKind::Exact {
@@ -104,11 +116,12 @@ fn edge(plan: &Plan, edge: &str) -> Vec<Field> {
 pub fn prim(plan: &Plan) -> Vec<Field> {
     let w = plan.widths();
     let mut fields = vec![
-        Field::count("jm", w.y, "first line"),
-        Field::count("n1", w.y + 1, "lines of the upper part"),
-        Field::count("n2", w.y + 1, "lines of the lower part"),
+        Field::count("jm", w.line, "first line"),
+        Field::count("n1", w.line + 1, "lines of the upper part"),
+        Field::count("n2", w.line + 1, "lines of the lower part"),
         Field::count("major_right", 1, "the major edge is the right one"),
     ];
+    fields.extend(thin(plan));
     fields.extend(EDGES.iter().flat_map(|name| edge(plan, name)));
     for channel in plan.channels() {
         let result =
@@ -144,15 +157,16 @@ pub fn held_by_edge(plan: &Plan) -> Vec<Field> {
 pub fn line(plan: &Plan) -> Vec<Field> {
     let w = plan.widths();
     let mut fields = vec![
-        Field::count("y", w.y, "line"),
+        Field::count("y", w.line, "line"),
         Field::signed("cmaj", w.column, "first column right of the major edge"),
         Field::signed("cmin", w.column, "first column right of the minor edge"),
         Field::count("major_right", 1, "the major edge is the right one"),
     ];
+    fields.extend(thin(plan));
     fields.extend(words(plan));
     fields.extend([
         Field::count("fresh", 1, "first line of the triangle"),
-        Field::count("fence", 1, "what is in flight may be of the same pixels"),
+        Field::count("fence", 1, "fragments in flight may lie on the same pixels"),
     ]);
     fields.extend(tag(plan));
     fields
@@ -174,8 +188,8 @@ pub fn walked(plan: &Plan) -> Vec<Field> {
             scale: Scale::Modular("LSB"),
             ..Field::of(format!("{}_{part}", term.name), word_format(term), "LSB")
         };
-        fields.extend([word("v", "at the first pixel"), word("g", "to the next pixel")]);
-        fields.extend((term.degree == 2).then(|| word("gg", "from a step to the next")));
+        fields.extend([word("v", "value at the first pixel"), word("g", "step to the next pixel")]);
+        fields.extend((term.degree == 2).then(|| word("gg", "change of the step a pixel")));
     }
     fields.extend(material(plan));
     fields.extend(gloss(plan));
@@ -190,12 +204,13 @@ fn word_format(term: &Term) -> Format {
 /// The material, if there is more than one.
 fn material(plan: &Plan) -> Option<Field> {
     let bits = plan.shade.material_bits;
-    (plan.shade.is_there() && bits > 0).then(|| Field::count("material", bits, "whose tables count"))
+    (plan.shade.is_there() && bits > 0)
+        .then(|| Field::count("material", bits, "material; selects the tables of SHADE"))
 }
 
 /// Of the material's highlights, on the way to NORMAL or LAMP.
 fn gloss(plan: &Plan) -> Option<Field> {
-    let doc = "highlights reach down to 2^gloss tables below 0";
+    let doc = "gloss: highlights reach down to 2^gloss tables below 0";
     plan.shade.normalises().then(|| Field::count("gloss", GLOSS_BITS, doc))
 }
 
@@ -218,14 +233,14 @@ fn span_with(plan: &Plan, terms: Vec<Field>) -> Vec<Field> {
     let mut fields = vec![
         Field::signed("x", w.column, "first column"),
         Field::count("y", w.y, "line"),
-        Field::count("count", w.column, "pixels, at least 1"),
-        Field::count("leftward", 1, "towards smaller columns"),
+        Field::count("count", w.column, "pixels of the span, at least 1"),
+        Field::count("leftward", 1, "1: the span runs towards smaller columns"),
     ];
     fields.extend(words(plan));
     fields.extend(terms);
     fields.extend([
-        Field::count("fresh", 1, "first span of the triangle: its increments are new"),
-        Field::count("fence", 1, "what is in flight may be of the same pixels"),
+        Field::count("fresh", 1, "first span of the triangle; increments are new"),
+        Field::count("fence", 1, "fragments in flight may lie on the same pixels"),
     ]);
     fields.extend(tag(plan));
     fields
@@ -244,7 +259,7 @@ fn outputs(plan: &Plan) -> impl Iterator<Item = Field> {
 
 /// Bits, 1 for what the light reaches; only with SHADOW.
 fn lit(plan: &Plan) -> Option<Field> {
-    plan.shadow.is_there().then(|| Field::count("lit", 1, "the light reaches it"))
+    plan.shadow.is_there().then(|| Field::count("lit", 1, "the light reaches the fragment"))
 }
 
 /// The outputs that go beyond SHADOW.
@@ -275,10 +290,10 @@ pub fn texel_address(plan: &Plan) -> Field {
 #[must_use]
 pub fn map_word(plan: &Plan) -> Field {
     if plan.shadow.transmits() {
-        let doc = "depth from the light of what is nearest to it, then what is left of the light before it";
+        let doc = "{depth of the surface nearest to the light, share of the light in front of it}";
         return Field::count("texel", plan.map_word_bits(), doc);
     }
-    Field::count("depth", plan.shadow.depth_bits, "depth from the light of what is nearest to it")
+    Field::count("depth", plan.shadow.depth_bits, "depth of the surface nearest to the light")
 }
 
 /// What PIXEL gives: a fragment, with the outputs of the terms.
@@ -297,10 +312,10 @@ fn terms(plan: &Plan, count: usize) -> Vec<Field> {
 #[must_use]
 pub fn texture_word(plan: &Plan) -> Field {
     if plan.shade.bumps() {
-        let doc = "red, green, blue, red the most significant, then the slopes along u and v";
+        let doc = "{red, green, blue, slope along u, slope along v}, red in the top bits";
         return Field::count("texel", plan.texel_word_bits(), doc);
     }
-    Field::count("rgb", plan.texel_word_bits(), "red, green, blue, red the most significant")
+    Field::count("rgb", plan.texel_word_bits(), "{red, green, blue}, red in the top bits")
 }
 
 /// What TEXEL gives: the same without u and v, its colours new, with BUMP slopes; without TEXEL what PIXEL gives.
@@ -308,7 +323,9 @@ pub fn texture_word(plan: &Plan) -> Field {
 pub fn textured(plan: &Plan) -> Vec<Field> {
     let mut fields = fragment_with(plan, terms(plan, plan.bumped_terms()));
     if plan.shade.bumps() {
-        let slope = |name| Field::signed(name, plan.shade.slope_bits, "slope of the relief, of its largest");
+        let slope = |name| {
+            Field::signed(name, plan.shade.slope_bits, "slope of the relief, as a fraction of the largest")
+        };
         let fence = fields.iter().position(|field| field.name == "fence").unwrap_or(fields.len());
         fields.splice(fence..fence, ["bu", "bv"].map(slope));
     }
@@ -331,11 +348,11 @@ pub fn bumped(plan: &Plan) -> Vec<Field> {
 #[must_use]
 pub fn cosines(plan: &Plan) -> Vec<Field> {
     let bits = [plan.shade.diffuse_index_bits(), plan.shade.highlight_index_bits()];
-    let index = |(name, bits)| Field::signed(name, bits, "in entries of a table");
+    let index = |(name, bits)| Field::signed(name, bits, "entry of SHADE's table, signed");
     let lights = COSINES.into_iter().take(plan.shade.lights as usize);
     let cosines = lights.flat_map(|names| names.into_iter().zip(bits)).map(index);
     let beam =
-        plan.shade.is_positional().then(|| Field::count("beam", 17, "of the light, 2^16 for all of it"));
+        plan.shade.is_positional().then(|| Field::count("beam", 17, "share of the light, 2^16 for 1.0"));
     fragment_with(plan, cosines.chain(beam).chain(material(plan)).collect())
 }
 
@@ -354,8 +371,8 @@ pub fn projected(plan: &Plan) -> Vec<Field> {
         fields.retain(|field| field.name != "lw");
         for field in &mut fields {
             match field.name.as_str() {
-                "lx" => *field = Field::signed("lx", texel, "column of its texel, -1 outside the map"),
-                "ly" => *field = Field::signed("ly", texel, "line of its texel, -1 outside the map"),
+                "lx" => *field = Field::signed("lx", texel, "column of the texel, -1 outside the map"),
+                "ly" => *field = Field::signed("ly", texel, "line of the texel, -1 outside the map"),
                 "lz" => {
                     let doc = format!("depth from the light in 2^-{}, or -1", plan.shadow.depth_bits);
                     *field = Field::signed("lz", distance, doc);
@@ -378,7 +395,7 @@ fn fragment_with(plan: &Plan, terms: Vec<Field>) -> Vec<Field> {
 }
 
 fn fence() -> Field {
-    Field::count("fence", 1, "what is in flight may be of the same pixel")
+    Field::count("fence", 1, "fragments in flight may lie on the same pixel")
 }
 
 /// What is kept of a fragment while a memory is read for it.
@@ -395,7 +412,7 @@ pub fn write(plan: &Plan) -> Vec<Field> {
         let is_depth = field.name == "z";
         fields.push(field);
         if is_depth {
-            fields.push(Field::count("z_en", 1, "the depth is written too"));
+            fields.push(Field::count("z_en", 1, "1: write the depth as well"));
         }
     }
     fields.extend(lit(plan));
@@ -407,7 +424,7 @@ pub fn write(plan: &Plan) -> Vec<Field> {
 #[must_use]
 pub fn depth_word(plan: &Plan) -> Field {
     let z = Field::output(&plan.channels()[0]);
-    Field { scale: Scale::Unorm, doc: "old depth".to_owned(), ..z }
+    Field { scale: Scale::Unorm, doc: "old depth of the address read".to_owned(), ..z }
 }
 
 /// DEPTH to the depth memory, in a machine with BLEND.
@@ -438,7 +455,7 @@ pub fn passed(plan: &Plan) -> Vec<Field> {
 /// A word of the colour memory: red, green and blue, red the most significant.
 #[must_use]
 pub fn color_word(plan: &Plan) -> Field {
-    Field::count("rgb", 3 * plan.color.bits, "red, green, blue, red the most significant")
+    Field::count("rgb", 3 * plan.color.bits, "{red, green, blue}, red in the top bits")
 }
 
 /// BLEND to the colour memory: one pixel.

@@ -1,7 +1,7 @@
 //! SETUP's results and clocks with divisions that take a few clocks each, in 64 bits.
 //!
 //! A triangle is sorted when it is brought in, some triangles before the one that is drawn.
-//! Only for exact fill and exact edges, formats whose differences over the screen fit in 62 bits, and triangles whose
+//! Only for triangles, exact fill and exact edges, formats whose differences over the screen fit in 62 bits, and triangles whose
 //! numerators do; all else is left to the plain setup, with its 128 bits. Rules: `docs/machine.md`, section 2.
 
 use super::divide::{Divisor, Shifts};
@@ -10,7 +10,7 @@ use crate::setup::edges::{Parts, Screen};
 use crate::setup::sort::{Corner, Sorted};
 use crate::setup::{self, SetupClocks};
 use crate::tokens::{EdgeWalk, FEW, Prim, Source, per_channel, sign_extend, word_masks};
-use edgewalk_machine::{EdgeKind, Fill, Plan, PortVertex};
+use edgewalk_machine::{EdgeKind, Fill, Plan, PortVertex, Role};
 use std::array::from_fn;
 
 type Words = crate::tokens::Words<FEW>;
@@ -85,6 +85,7 @@ impl Setup {
     #[inline(always)]
     pub(super) fn increments(&self, sorted: &Sorted<FEW>, prim: &mut Prim<FEW>) -> (SetupClocks, bool) {
         if !self.plain
+            && sorted.role == Role::Triangle
             && let Ok(done) = self.short(sorted, prim)
         {
             return done;
@@ -152,6 +153,8 @@ impl Setup {
         *prim = Prim {
             line: line as u32,
             lines: parts.lines,
+            thin: false, // a line is left to the plain setup
+            flat: false,
             major_right,
             major,
             minor,
@@ -188,7 +191,8 @@ impl Setup {
             values: from_fn(|i| vertex.values()[i] & self.vertex_masks[i]),
         };
         let [top, middle, bottom] = order;
-        Sorted { corners: [corner(&vertices[top]), corner(&vertices[middle]), corner(&vertices[bottom])] }
+        let corners = [corner(&vertices[top]), corner(&vertices[middle]), corner(&vertices[bottom])];
+        Sorted { corners, role: Role::of(vertices) }
     }
 
     /// k0 and k1: the first column that may have a pixel, and the first behind the last.

@@ -13,11 +13,13 @@
 //! Rules: `docs/machine.md`, section 2. Not modelled: the lanes bit by bit; all is computed when the triangle arrives
 //! and appears when the hardware would have it.
 
+mod round;
 pub(crate) mod sort;
 pub(crate) mod edges;
 mod channels;
 pub(crate) mod clocks;
 mod schedule;
+pub mod sequencer;
 mod view;
 
 pub use clocks::{SetupClocks, longest_setup};
@@ -27,8 +29,8 @@ use crate::ports::{Pins, Ported, Shown};
 use crate::tokens::{FEW, Prim, Source};
 use clocks::Timing;
 use edges::Screen;
-use edgewalk_machine::{Plan, PortVertex};
-use sort::{Corner, Sorted};
+use edgewalk_machine::{Plan, PortVertex, Role};
+use sort::Sorted;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum State {
@@ -78,7 +80,7 @@ impl<const C: usize> Setup<C> {
             culled: false,
             clocks: SetupClocks::default(),
             prim: Prim::default(),
-            sorted: Box::new(Sorted { corners: [Corner { u: 0, v: 0, values: [0; C] }; 3] }),
+            sorted: Box::new(Sorted::default()),
             taken: 0,
             record: u32::MAX,
         }
@@ -178,6 +180,10 @@ impl<const C: usize> Setup<C> {
         events.setup.major_left += u64::from(!self.prim.major_right);
         events.setup.no_upper_part += u64::from(n1 == 0);
         events.setup.no_lower_part += u64::from(n2 == 0);
+        if let Role::Line { flat } = sorted.role {
+            events.setup.line_flat += u64::from(flat);
+            events.setup.line_steep += u64::from(!flat);
+        }
         events.setup.knee_on_line += u64::from(n1 > 0 && n2 > 0 && knee % p == 0);
     }
 }
@@ -240,6 +246,8 @@ pub(crate) fn prepare<const C: usize>(
     *prim = Prim {
         line: parts.drawn() as u32, // first drawn line, 0 <= jm < H
         lines: parts.lines,
+        thin: sorted.role != Role::Triangle,
+        flat: sorted.role == Role::Line { flat: true },
         major_right: area < 0,
         major: edges::walk(plan, a, c, parts.drawn(), n1 + n2),
         minor: [edges::walk(plan, a, b, j0, n1), edges::walk(plan, b, c, j1, n2)],
@@ -248,15 +256,6 @@ pub(crate) fn prepare<const C: usize>(
     channels::prepare(plan, sorted, &parts, prim);
     let phase2 = timing.phase2(sorted, &parts, prim, (area, scale));
     (SetupClocks { phase1, phase2 }, None)
-}
-
-/// floor(n/d + 1/2), d > 0: RN. Most numbers fit in 64 bits, whose division takes the host a fraction of the time.
-fn round_div(n: i128, d: i128) -> i128 {
-    let n = n + d / 2;
-    match (i64::try_from(n), i64::try_from(d)) {
-        (Ok(n), Ok(d)) => n.div_euclid(d).into(),
-        _ => n.div_euclid(d),
-    }
 }
 
 impl<const C: usize> Ported<C> for Setup<C> {

@@ -107,9 +107,13 @@ impl<const C: usize> Setup<C> {
         let known = matches!(self.state, State::Phase2 | State::Done);
         let live = view.guard("edges_known", "phase 1 is over", known);
         view.live(Some(live));
-        view.number("jm", "first line", w.y, prim.line);
-        view.number("n1", "lines of the upper part", w.y + 1, prim.lines[0]);
-        view.number("n2", "lines of the lower part", w.y + 1, prim.lines[1]);
+        view.number("jm", "first line", w.line, prim.line);
+        view.number("n1", "lines of the upper part", w.line + 1, prim.lines[0]);
+        view.number("n2", "lines of the lower part", w.line + 1, prim.lines[1]);
+        if plan.polygon.has_lines() {
+            view.flag("thin", "a line, a pixel wide", prim.thin);
+            view.flag("flat", "of a line: x and y have changed places", prim.flat);
+        }
         view.flag("major_right", "the major edge is the right one", prim.major_right);
         view.table("edges", &EdgeWalk::COLUMNS, false);
         for (name, edge) in EDGES.into_iter().zip([&prim.major, &prim.minor[0], &prim.minor[1]]) {

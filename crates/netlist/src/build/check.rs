@@ -23,6 +23,17 @@ pub(super) fn undriven(netlist: &Netlist) -> Vec<(String, Fault)> {
         .collect()
 }
 
+/// Memories that nothing writes and that have words without contents, by name.
+pub(super) fn unknown_words(netlist: &Netlist) -> Vec<(String, Fault)> {
+    let roms =
+        netlist.memories.iter().filter(|memory| memory.writes.is_empty() && memory.contents.others.is_none());
+    let unknown = roms.filter_map(|memory| {
+        let word = (0..memory.words).find(|word| !memory.contents.rows.contains_key(word))?;
+        Some((memory.name.clone(), Fault::UnknownWord { name: memory.name.clone(), word }))
+    });
+    unknown.collect()
+}
+
 /// Two modules of one name would be two files of one name.
 pub(super) fn duplicate_modules(netlist: &Netlist) -> Vec<(String, Fault)> {
     let mut found: Vec<(Arc<Netlist>, &str)> = Vec::new();

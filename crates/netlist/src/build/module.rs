@@ -13,7 +13,7 @@ use super::{check, paths};
 use crate::describe::describe;
 use crate::error::{BuildError, BuildErrors, Fault, Place};
 use crate::names;
-use crate::netlist::{self, Item, Netlist, Node, NodeId, Source};
+use crate::netlist::{self, Contents, Item, Netlist, Node, NodeId, Source};
 use crate::ops::{MAX_WIDTH, Op, mask};
 
 /// A module under construction. Faults are collected and come out of [`Module::finish`]; until then whatever is
@@ -169,7 +169,7 @@ impl Module {
                 addr_bits,
                 words,
                 width,
-                init: None,
+                contents: Contents::default(),
                 writes: Vec::new(),
                 reads: Vec::new(),
             },
@@ -191,6 +191,7 @@ impl Module {
         let Draft { mut netlist, mut errors, places, .. } = self.draft.into_inner();
         let here = Place(Location::caller());
         let mut faults = check::undriven(&netlist);
+        faults.extend(check::unknown_words(&netlist));
         faults.extend(check::duplicate_modules(&netlist));
         errors.extend(faults.into_iter().map(|(name, fault)| {
             let place = places.get(&name).copied().unwrap_or(here);

@@ -4,7 +4,7 @@ use super::module::Module;
 use super::operand::Operand;
 use super::signal::Signal;
 use crate::error::Fault;
-use crate::netlist::{self, Item, MemoryRead, MemoryWrite, Source, Update};
+use crate::netlist::{self, Item, MemoryRead, MemoryWrite, Row, Source, Update};
 
 /// A register under construction. At the clock it takes its reset value if it has one and `rst` is 1; else the value of
 /// the last update whose condition holds; else it stays.
@@ -106,12 +106,31 @@ impl<'m> Memory<'m> {
         self
     }
 
-    /// Every word at the start.
+    /// Every word at the start, but for those that [`Memory::holds`] gives. A reset does not bring them back.
     #[track_caller]
     pub fn starts(self, word: u128) -> Self {
-        let width = self.module.draft().netlist.memories[self.index].width;
+        let (_, _, width) = self.shape();
         let word = self.module.checked_value(width, word);
-        self.module.draft().netlist.memories[self.index].init = Some(word);
+        self.module.draft().netlist.memories[self.index].contents.others = Some(word);
+        self
+    }
+
+    /// Word `address` at the start, and what it is (or nothing). A memory that is given all its words and no write port is a ROM.
+    /// A reset does not bring them back.
+    #[track_caller]
+    pub fn holds(self, address: usize, word: u128, doc: &str) -> Self {
+        let (name, _, width) = self.shape();
+        let word = self.module.checked_value(width, word);
+        let words = self.module.draft().netlist.memories[self.index].words;
+        if address >= words {
+            self.module.fail(Fault::NoWord { name, words, address });
+            return self;
+        }
+        let row = Row { word, doc: doc.to_string() };
+        let before = self.module.draft().netlist.memories[self.index].contents.rows.insert(address, row);
+        if before.is_some() {
+            self.module.fail(Fault::WordTwice { name, address });
+        }
         self
     }
 

@@ -3,7 +3,7 @@
 
 use std::collections::BTreeMap;
 
-use crate::netlist::{Instance, Netlist, NodeId, Source, start_word};
+use crate::netlist::{Instance, Netlist, NodeId, Source};
 use crate::ops::{Bits, Op};
 
 pub(super) type Slot = u32;
@@ -173,7 +173,7 @@ impl Builder {
             let writes = memory.writes.iter().map(|port| (at(port.en), at(port.addr), at(port.data)));
             let reads = memory.reads.iter().map(|port| (at(port.en), at(port.addr), at(port.node)));
             self.flat.memories.push(FlatMemory {
-                words: (0..memory.words).map(|index| start_word(memory.init, memory.width, index)).collect(),
+                words: (0..memory.words).map(|address| memory.contents.word(memory.width, address)).collect(),
                 writes: writes.collect(),
                 reads: reads.collect(),
             });

@@ -109,6 +109,54 @@ fn words_nobody_may_read_yet_are_another_each() {
 }
 
 #[test]
+fn a_rom_reads_its_contents_and_holds() {
+    let m = Module::new("rom", "");
+    let (re, ra) = (m.input("re", 1), m.input("ra", 3));
+    let words = [3, u128::MAX, 0, 1 << 127, 0x55];
+    let rom = m.memory("words", 3, 5, 128);
+    words.iter().enumerate().for_each(|(address, word)| _ = rom.holds(address, *word, ""));
+    m.output("q", rom.read(re, ra));
+    let mut sim = simulator(&finish(m));
+    for (address, word) in words.iter().enumerate() {
+        assert_eq!(step(&mut sim, &[("re", 1), ("ra", address as u128)], "q"), *word);
+        assert_eq!(step(&mut sim, &[("re", 0), ("ra", 2)], "q"), *word, "holds without enable");
+    }
+    assert_eq!(step(&mut sim, &[("re", 1), ("ra", 5)], "q"), 0, "beyond the words");
+    assert_eq!(sim.memory("words").unwrap(), words);
+}
+
+#[test]
+fn a_reset_does_not_restore_a_written_row() {
+    let m = Module::new("ram", "");
+    let (we, addr, data) = (m.input("we", 1), m.input("addr", 2), m.input("data", 8));
+    let ram = m.memory("words", 2, 4, 8).starts(7).holds(2, 9, "nine").holds(0, 8, "").write(we, addr, data);
+    m.output("q", ram.read(m.lit(1, 1), addr));
+    m.output("r", m.reg("held", 1).reset(0).set(we));
+    let mut sim = simulator(&finish(m));
+    assert_eq!(sim.memory("words").unwrap(), [8, 7, 9, 7]);
+    let mut next = |rst, we, addr, data| {
+        step(&mut sim, &[("rst", rst), ("we", we), ("addr", addr), ("data", data)], "q")
+    };
+    assert_eq!(next(0, 1, 2, 5), 9, "the word before the write");
+    assert_eq!(next(1, 0, 2, 0), 5, "as it was written");
+    assert_eq!(next(1, 1, 0, 6), 8, "a reset keeps no write away");
+    assert_eq!(next(0, 0, 0, 0), 6);
+    assert_eq!(sim.memory("words").unwrap(), [6, 7, 5, 7]);
+}
+
+#[test]
+fn rows_of_unknown_words_are_known() {
+    let m = Module::new("ram", "");
+    let ram = m.memory("words", 2, 4, 5).holds(1, 0, "zero").holds(3, 31, "all ones");
+    ram.write(m.input("we", 1), m.input("wa", 2), m.input("data", 5));
+    m.output("q", ram.read(m.lit(1, 1), m.input("ra", 2)));
+    let sim = simulator(&finish(m));
+    let words = sim.memory("words").unwrap();
+    assert_eq!((words[1], words[3]), (0, 31));
+    assert!(words[0] != words[2] && words[0] != 0 && words[2] != 0, "{words:?}");
+}
+
+#[test]
 fn of_two_write_ports_the_later_wins() {
     let m = Module::new("ram", "");
     let (first, second) = (m.input("first", 1), m.input("second", 1));

@@ -41,8 +41,8 @@ impl<'m> Old<'m> {
         let kt = head("kt");
         // kt = 0 leaves 0 of 2^kt_bits: then base is the fragment's colour.
         let rest = -kt.trunc(plan.blend.kt_bits);
-        let none = (self.add | kt.msb()).named_doc("no_weight", "base is all there is");
-        let weight = none.mux(0, rest).named_doc("weight", "1 - kt");
+        let none = (self.add | kt.msb()).named_doc("no_weight", "the weight is 0: the result is base");
+        let weight = none.mux(0, rest).named_doc("weight", "1 - kt, fraction of 2^kt_bits");
         Prepared { own, base, weight, weighs: (self.need & !self.add).named("weighs") }
     }
 }

@@ -63,10 +63,10 @@ impl<'m> Stages<'m> {
         let colors =
             |name: &str, doc: &str| COLORS.map(|color| m.reg(&format!("{name}_{color}"), bits).doc(doc));
         let product = |name: &str| Product {
-            whole: m.reg(&format!("{name}_product"), bits).doc("to be added, modular"),
-            half: m.reg(&format!("{name}_half"), 1).doc("the bit below"),
+            whole: m.reg(&format!("{name}_product"), bits).doc("product to add, modular"),
+            half: m.reg(&format!("{name}_half"), 1).doc("bit below the product"),
         };
-        let valid = |i| m.reg(&format!("stage{i}_valid"), 1).doc("a fragment is being weighed").reset(0);
+        let valid = |i| m.reg(&format!("stage{i}_valid"), 1).doc("the stage holds a fragment").reset(0);
         let stage = |i| (valid(i), Registers::new(m, &format!("stage{i}"), carried.clone()));
         let (mut valid, mut carried) = (Vec::new(), Vec::new());
         let mut add_stage = |i| {
@@ -76,10 +76,10 @@ impl<'m> Stages<'m> {
         };
         add_stage(0);
         let own = colors("stage0_own", "the fragment's colour");
-        let base = colors("stage0_base", "what it is weighed against");
+        let base = colors("stage0_base", "base of the blend");
         let clocks = kt_bits.div_ceil(2);
         let weight_bits = if plan.blend.multipliers == 0 { 2 * clocks } else { kt_bits };
-        let weight = m.reg("stage0_weight", weight_bits).doc("of the fragment's colour");
+        let weight = m.reg("stage0_weight", weight_bits).doc("weight of the fragment's colour");
         let way = match plan.blend.multipliers {
             3 => Way::SideBySide,
             1 => Way::OneByOne {
@@ -87,9 +87,11 @@ impl<'m> Stages<'m> {
                 product: (stages == 2).then(|| product("stage0")),
             },
             _ => Way::BitByBit {
-                clock: m.reg("stage0_clock", clocks.next_power_of_two().ilog2()).doc("pairs of bits done"),
+                clock: m
+                    .reg("stage0_clock", clocks.next_power_of_two().ilog2())
+                    .doc("pairs of weight bits already used"),
                 last: clocks - 1,
-                made: colors("stage0_made", "base and the bits that are done"),
+                made: colors("stage0_made", "partial result"),
             },
         };
         let second = (stages == 2).then(|| {
@@ -99,7 +101,7 @@ impl<'m> Stages<'m> {
                 Way::OneByOne { .. } => [false, false, true],
                 Way::BitByBit { .. } => [false; 3],
             };
-            let base = colors("stage1", "to be added to, or done");
+            let base = colors("stage1", "base, or the finished colour");
             let products = [0, 1, 2].map(|i| added[i].then(|| product(&format!("stage1_{}", COLORS[i]))));
             Second { base, products }
         });
@@ -154,7 +156,7 @@ impl<'m> Stages<'m> {
         head: impl Fn(&str) -> Signal<'m>,
     ) -> Signal<'m> {
         let m = self.m;
-        m.comment("The first stage.");
+        m.comment("First stage.");
         self.valid[0].when(flow.moves, 0).when(take, 1);
         self.carried[0].load(take, head);
         let (base, products) = self.weigh(flow, take, prepared);
@@ -169,7 +171,7 @@ impl<'m> Stages<'m> {
         let Some(second) = &self.second else {
             return m.cat(&[0, 1, 2].map(|i| result(base[i], products[i])));
         };
-        m.comment("The second stage.");
+        m.comment("Second stage.");
         self.valid[1].when(flow.leaves, 0).when(flow.moves, 1);
         self.carried[1].load(flow.moves, |f| self.carried[0][f].q());
         let done = [0, 1, 2].map(|i| {

@@ -5,11 +5,12 @@ use edgewalk_netlist::{Module, Signal};
 /// For the header.
 pub(super) fn doc(multipliers: u32) -> &'static str {
     match multipliers {
-        3 => "Timing: the three colours are weighed in one clock.",
-        1 => "Timing: the three colours are weighed one after the other, a clock each; what is not weighed takes one clock.",
+        3 => "Timing: all three colours are mixed in one clock.",
+        1 => "Timing: the three colours are mixed one after the other, a clock each. A fragment with weight 0 takes one clock.",
         _ => {
-            "Timing: two bits of the weight a clock, the lowest first; what is not weighed takes one clock. Each bit adds own, if it is 1,
-or base, if it is 0, to what is there, which is base at first, and halves the sum: so it never leaves the range between the two."
+            "Timing: two bits of the weight a clock, the lowest first. A fragment with weight 0 takes one clock.
+The partial result begins with base. A bit of 1 adds own, a bit of 0 adds base; then the sum is halved. So the result
+never leaves the range between own and base."
         }
     }
 }

@@ -41,7 +41,11 @@ impl<'m> Turn<'_, 'm> {
         let of_cosine = |part: &Part| {
             slopes.map(|(way, slope)| {
                 let name = format!("{}{way}", part.name);
-                self.moved(&format!("k1_{name}"), "slope * growth", frag[name.as_str()].smul(slope))
+                self.moved(
+                    &format!("k1_{name}"),
+                    "slope times growth of the cosine",
+                    frag[name.as_str()].smul(slope),
+                )
             })
         };
         let of_cosines = self.cosines.iter().map(of_cosine).collect();
@@ -68,7 +72,7 @@ impl<'m> Turn<'_, 'm> {
         let half = if normalises { 1 << (one - 1) } else { 0 };
         let scaled = m.cat(&[cosine.sext(width - one), m.lit(one, half)]);
         let sum = scaled + along_u.sext(width) + along_v.sext(width);
-        let doc = if normalises { "exact, with the half that rounds it" } else { "exact" };
+        let doc = if normalises { "exact sum plus the rounding half" } else { "exact" };
         let sum = sum.named_doc(&format!("sum_{}", part.name), doc);
         let turned = sum.slice(width - 1, one + self.plan.shade.cosine_fraction());
         let turned = turned.named(&format!("turned_{}", part.name));
@@ -96,6 +100,6 @@ impl<'m> Turn<'_, 'm> {
         let scaled = m.cat(&[nn.sext(width - 2 * one), m.lit(2 * one, 0)]);
         let sum = growths.into_iter().fold(scaled, |sum, growth| sum + growth.sext(width));
         let turned = sum.named_doc("sum_nn", "exact").slice(width - 1, 2 * one).named("turned_nn");
-        self.moved("k3_nn", "2^16 for 1.0", cut(m, SQUARE, turned, nn.width()))
+        self.moved("k3_nn", "N.N, 2^16 for 1.0", cut(m, SQUARE, turned, nn.width()))
     }
 }

@@ -23,13 +23,13 @@ impl<'m> Beside<'m> {
         root: &Root<'m>,
         made: &Made<'m>,
     ) -> Beside<'m> {
-        m.comment("Beside the axis.");
+        m.comment("Place beside the cone's axis.");
         let beside = (root.one - made.axis.q().sext(19)).named_doc("beside", "1 - cosine to the axis, 2^-16");
         // Set below 0, and from 2.0 on, which no EDGE lights: there any place will do.
         let other = beside.bit(17);
         let place = other.mux(0, beside.bit(16).mux(m.lit(16, 0xffff), beside.trunc(16)));
-        let place = place.named_doc("place_beside", "of it, in table C");
-        let edge = m.reg("cone_edge", 17).doc("EDGE: light falls where beside is no more");
+        let place = place.named_doc("place_beside", "entry of table C");
+        let edge = m.reg("cone_edge", 17).doc("the cone's edge: light falls where beside is at most this");
         edge.when(roots.comes & !roots.taken.any(), word.slice(32, 16));
         let dark = (!beside.msb() & edge.q().zext(18).lt(beside.trunc(18))).named("dark");
         Beside { place, dark }

@@ -36,18 +36,18 @@ pub(super) struct Made<'m> {
 impl<'m> Made<'m> {
     /// The registers, without updates.
     pub fn new(m: &'m Module) -> Made<'m> {
-        m.comment("What the products make.");
+        m.comment("Results of the products.");
         let register = |name: &str, bits: u32, doc: &str| m.reg(name, bits).doc(doc);
         Made {
             y: register("y", 17, "1/root, 2^-16"),
             attenuation: register("attenuation", 17, "2^-16"),
-            toward: register("toward", 18, "N.L of the normal as it is, 2^-16"),
+            toward: register("toward", 18, "N.L before division by the normal's length, 2^-16"),
             way: register("way", 18, "L.V, 2^-16"),
             axis: register("axis", 18, "cosine to the axis, 2^-16"),
-            cone: register("cone", 17, "what the cone lets through, 2^-16"),
+            cone: register("cone", 17, "share of the light inside the cone, 2^-16"),
             diffuse: register("diffuse", 18, "N.L, 2^-16"),
             viewed: register("viewed", 18, "N.V, 2^-16"),
-            beam: register("beam", 17, "what is left of the light, 2^-16"),
+            beam: register("beam", 17, "light after attenuation, 2^-16"),
             halfway: register("halfway", 18, "N.H, 2^-16"),
         }
     }
@@ -78,7 +78,7 @@ impl<'m> Made<'m> {
         steps: &Steps<'m>,
         exact: Signal<'m>,
     ) -> Vec<(String, Signal<'m>)> {
-        m.comment("Step 15: where they stand in SHADE's tables.");
+        m.comment("Step 15: entries in SHADE's tables.");
         let cosines = parts(&tokens::cosines(plan));
         let found = cosines.iter().filter(|part| ["nl0", "nh0"].contains(&part.name.as_str()));
         let index = found.map(|part| {

@@ -19,8 +19,8 @@ impl<'m> Multiplier<'m> {
     pub fn new(m: &'m Module, a: Signal<'m>, b: Signal<'m>, v: Signal<'m>) -> Multiplier<'m> {
         let operand =
             |name: &str, doc: &str, value: Signal<'m>| m.reg(name, value.width()).doc(doc).set(value).q();
-        let (a, b) = (operand("a", "operand, signed", a), operand("b", "operand", b));
-        let v = operand("v", "of the entry, 2^-16", v);
+        let (a, b) = (operand("a", "operand of the multiplier, signed", a), operand("b", "operand", b));
+        let v = operand("v", "value at the entry, 2^-16", v);
         let exact = a.smul(b.zext(18)).named_doc("exact", "a * b");
         let less = (exact.trunc(27) + m.lit(27, 1 << 9)).slice(26, 10).named_doc("less", "2^-16");
         let looked = (v - less).named_doc("looked", "2^-16");

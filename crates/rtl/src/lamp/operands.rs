@@ -27,7 +27,9 @@ impl<'m> Operands<'_, 'm> {
     /// The entry of the tables, `{v, slope}`, a step after it was asked for.
     pub fn entry(&self, roots: &Roots<'m>) -> Signal<'m> {
         let Operands { m, root, .. } = *self;
-        m.comment("The tables: of R an entry for the root begun, of A one for its exponent, of C one for the place beside the axis.");
+        m.comment(
+            "Table entries: R for the root in progress, A for its exponent, C for the place beside the axis.",
+        );
         let (in_a, in_c) = (self.at(1), self.at(7));
         let of_a = m.cat(&[m.lit(1, 1), root.k, root.m.slice(15, 10)]);
         let of_c = m.cat(&[m.lit(2, 1), self.beside.place.slice(15, 8)]);
@@ -39,15 +41,15 @@ impl<'m> Operands<'_, 'm> {
     /// Both operands: `slope` is that of the entry.
     pub fn factors(&self, slope: Signal<'m>) -> [Signal<'m>; 2] {
         let Operands { m, made, root, .. } = *self;
-        m.comment("The operands: a slope and how far behind its entry, or a number in 2^-23 over the root, or what is made already.");
+        m.comment("Operands: a slope and the distance beyond its entry, or a number of 2^-23 and the root, or an earlier result.");
         let (low_a, low_c) = (root.m.trunc(10), zeros_behind(self.beside.place.trunc(8), 2));
         let low = self
             .at(2)
             .mux(low_a, self.at(8).mux(low_c, zeros_behind(root.m.trunc(8), 2)))
-            .named_doc("low", "2^-10 of an entry");
+            .named_doc("low", "distance beyond the entry, 2^-10 entry");
         let near = self.over_root();
         let looks = [1, 2, 6, 8, 11].map(|step| self.at(step)).into_iter().reduce(|any, one| any | one);
-        let looks = looks.expect("five").named_doc("looks", "a slope is multiplied");
+        let looks = looks.expect("five").named_doc("looks", "one operand is a slope");
         let (of_beam, of_light) = (self.at(12), self.at(14));
         let others = of_beam.mux(made.attenuation.q().zext(18), of_light.mux(made.diffuse.q(), near));
         let a = looks.mux(slope.zext(18), others);

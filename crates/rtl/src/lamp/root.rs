@@ -21,9 +21,9 @@ pub(super) struct Root<'m> {
 impl<'m> Root<'m> {
     /// The roots of a fragment: of dd in step 0, of nn in step 5, of 1 + L.V in step 10; `way` is L.V, 2^-16.
     pub fn of_steps(m: &'m Module, steps: &Steps<'m>, way: Signal<'m>) -> Root<'m> {
-        m.comment("The numbers that roots are taken of, 2^-30, signed.");
+        m.comment("Arguments of the roots, 2^-30, signed.");
         let [first, second, third] = [0, 5, 10].map(|step| steps.at(step));
-        let rooting = (first | second | third).named_doc("rooting", "a root is begun");
+        let rooting = (first | second | third).named_doc("rooting", "a root begins");
         let one = m.lit(19, 1 << 16);
         let of_normal = zeros_behind(steps.of("nn"), 14);
         let of_way = zeros_behind(way.sext(19) + one, 13);
@@ -33,10 +33,10 @@ impl<'m> Root<'m> {
 
     /// `rooting`: the root of `x`, 32 bits, signed, 2^-30, is begun.
     fn new(m: &'m Module, rooting: Signal<'m>, one: Signal<'m>, x: Signal<'m>) -> Root<'m> {
-        m.comment("The exponent: by how many pairs of zeros x begins, at most seven.");
+        m.comment("Exponent: pairs of leading zeros of x, at most seven.");
         let ones = m.lit(30, (1 << 30) - 1);
         let within = x.slice(30, 30).mux(ones, x.trunc(30)) & (!x.msb()).sext(30);
-        let mut rest = within.named_doc("below_one", "x from 0 to below 1");
+        let mut rest = within.named_doc("below_one", "x, limited to [0, 1)");
         let mut digits = Vec::new();
         for shift in [8, 4, 2] {
             // What lies below the 16 bits that are left, however far they move, goes no further.
@@ -46,9 +46,9 @@ impl<'m> Root<'m> {
             digits.push(small);
         }
         let left = rest.slice(15, 14).any().mux(rest, m.lit(16, 1 << 14));
-        let left = left.named_doc("left", "1/4 to below 1, 2^-16");
-        let k = m.reg("k", 3).doc("of the root").when(rooting, m.cat(&digits)).q();
-        let of_root = m.reg("m", 16).doc("of the root, 2^-16").when(rooting, left).q();
+        let left = left.named_doc("left", "normalised x in [1/4, 1), 2^-16");
+        let k = m.reg("k", 3).doc("exponent of the root").when(rooting, m.cat(&digits)).q();
+        let of_root = m.reg("m", 16).doc("mantissa of the root's argument, 2^-16").when(rooting, left).q();
         Root { k, m: of_root, entry: left.slice(15, 8), begins: rooting, one }
     }
 }

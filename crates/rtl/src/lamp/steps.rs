@@ -30,9 +30,9 @@ pub(super) struct Steps<'m> {
 impl<'m> Steps<'m> {
     /// The registers; `have`: the tables are there.
     pub fn new(m: &'m Module, frag: &Token<'m>, have: Signal<'m>, links: &Links<'m>) -> Steps<'m> {
-        m.comment("Which step it is.");
-        let busy = m.reg("busy", 1).doc("a fragment is inside").reset(0);
-        let step = m.reg("step", 5).doc("steps that are done");
+        m.comment("Step counter.");
+        let busy = m.reg("busy", 1).doc("the unit holds a fragment").reset(0);
+        let step = m.reg("step", 5).doc("steps already done");
         let done = step.q().eq(LAST).named("done");
         let normed_valid = (busy.q() & done).named("normed_valid");
         let working = (busy.q() & !done).named("working");

@@ -6,10 +6,11 @@ use edgewalk_netlist::{Module, Reg, Signal};
 use crate::wires::Token;
 
 /// For the header of machines with more than one segment.
-pub(super) const SKEW_DOC: &str = "Segments: the words are cut into segments, and the carry moves a segment a clock.
-  clock   0  1  2  3        All of a segment runs a clock behind the one below it: loading, adding, and leaving.
-  seg 0   a  b  c  d        So a segment of an addition needs only the carry of the clock before, and the bits of a
-  seg 1      a  b  c        fragment meet again in the output stages.
+pub(super) const SKEW_DOC: &str =
+    "Segments: words are cut into segments; the carry moves one segment a clock.
+  clock   0  1  2  3        Each segment loads, adds and leaves one clock behind the segment below it.
+  seg 0   a  b  c  d        A segment needs only the carry of the clock before.
+  seg 1      a  b  c        The output stages bring the bits of a fragment together.
   seg 2         a  b";
 
 /// What a segment of all words does in a clock in which PIXEL advances.
@@ -28,7 +29,7 @@ pub(super) struct Step<'m> {
 /// The steps of all segments: each does what the one below it did at the last advance.
 fn steps<'m>(m: &'m Module, plan: &Plan, advance: Signal<'m>, first: Step<'m>) -> Vec<Step<'m>> {
     if plan.segments > 1 {
-        m.comment("What the segments do: what the one below did at the last advance.");
+        m.comment("Each segment repeats what the segment below did at the last advance.");
     }
     let mut steps = vec![first];
     for segment in 1..plan.segments {
@@ -82,12 +83,12 @@ impl<'m> Words<'m> {
             }
             let name = match channels {
                 [own] => {
-                    m.comment("Its adder.");
+                    m.comment("Adder of this channel.");
                     own.name.to_owned()
                 }
                 several => {
                     let names: Vec<&str> = several.iter().map(|channel| channel.name).collect();
-                    m.comment(&format!("The adder of {}.", names.join(", ")));
+                    m.comment(&format!("Adder of {}.", names.join(", ")));
                     format!("adder{adder}")
                 }
             };
@@ -128,7 +129,7 @@ fn registers<'m>(
     entering: &Entering<'m>,
 ) -> Vec<Option<Segment<'m>>> {
     let name = channel.name;
-    m.comment(&format!("The words of {name}."));
+    m.comment(&format!("Value and increment of channel {name}."));
     let Entering { value: mut value_in, inc: mut inc_in } = *entering;
     let word = value_in.width();
     let mut segments = Vec::new();
@@ -141,7 +142,7 @@ fn registers<'m>(
         if segment > 0 {
             let late = |what: &str, below: Signal<'m>| {
                 let rest = m.reg(&format!("{name}_{what}_late{segment}"), word - low);
-                rest.doc("upper bits of the span to come")
+                rest.doc("upper bits of the next span")
                     .when(advance, below.slice(below.width() - 1, low - bounds[segment - 1]))
                     .q()
             };

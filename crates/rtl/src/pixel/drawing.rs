@@ -53,29 +53,34 @@ impl<'m> Drawing<'m> {
     /// The registers of the span, and their updates.
     pub fn new(m: &'m Module, plan: &Plan, links: &Links<'m>, ports: &Interface<'m>) -> Drawing<'m> {
         let Links { span_valid, ref span, ref increments, frag_valid, frag_ready } = *links;
-        m.comment("The span being drawn.");
+        m.comment("The span in progress.");
         let advance = (!frag_valid | frag_ready).named("advance");
-        let active = m.reg("active", 1).doc("a span is being drawn").reset(0);
-        let x = m.reg("x", span["x"].width()).doc("column, signed");
+        let active = m.reg("active", 1).doc("a span is in progress").reset(0);
+        let x = m.reg("x", span["x"].width()).doc("current column, signed");
         let y = m.reg("y", span["y"].width()).doc("line");
         let leftward = m.reg("leftward", 1).doc("towards smaller columns");
-        let count = m.reg("count", span["count"].width()).doc("pixels left of the span, this one too");
-        let fence = m.reg("fence", 1).doc("for the next fragment");
+        let count =
+            m.reg("count", span["count"].width()).doc("pixels left in the span, current one included");
+        let fence = m.reg("fence", 1).doc("fence of the next fragment");
         let phase = Phase::new(m, plan.clocks_per_pixel());
         let last_phase = phase.as_ref().map_or(m.lit(1, 1), |phase| phase.last);
-        let last = m.reg("last", 1).doc("count is 1");
-        m.comment("Registers alone say whether the span goes on. Where it does not, one may enter; what is loaded while none comes means nothing.");
+        let last = m.reg("last", 1).doc("count = 1: last pixel of the span");
+        m.comment("Registers alone decide whether the span continues. Otherwise PIXEL loads the offered span. Values loaded without a valid span are don't care.");
         let finish = (active.q() & last_phase & last.q()).named_doc("finish", "last clock of the span");
-        let goes_on = (active.q() & !finish).named_doc("goes_on", "the next clock is this span's too");
+        let goes_on = (active.q() & !finish).named_doc("goes_on", "the span continues in the next clock");
         let span_ready = (advance & !goes_on).named("span_ready");
         let load = (span_valid & span_ready).named("load");
         let light_pass = LightPass::of(plan, ports);
         let columns = light_pass.number(m, x.q().width(), plan.width.into(), plan.shadow.size.into());
-        let visible = x.q().lt(columns).named_doc("visible", "on the screen; negative columns are large");
-        let emit = (active.q() & last_phase & visible).named_doc("emit", "a fragment");
+        let visible = x
+            .q()
+            .lt(columns)
+            .named_doc("visible", "the column is on the screen; unsigned, so a negative column is too large");
+        let emit = (active.q() & last_phase & visible).named_doc("emit", "PIXEL makes a fragment");
         let moves = match &phase {
             None => advance,
-            Some(_) => (advance & (last_phase | !active.q())).named_doc("moves", "another pixel, or none"),
+            Some(_) => (advance & (last_phase | !active.q()))
+                .named_doc("moves", "the pixel changes, or PIXEL is idle"),
         };
 
         active.when(advance, goes_on | span_valid);
@@ -93,7 +98,7 @@ impl<'m> Drawing<'m> {
         drawn.load(span_ready, |f| span[f]);
         let kt = plan.has_triangle_kt().then(|| {
             let kt = increments["kt"];
-            m.reg("kt", kt.width()).doc("of the triangle").when(load & span["fresh"], kt).q()
+            m.reg("kt", kt.width()).doc("kt of the triangle").when(load & span["fresh"], kt).q()
         });
         let [active, x, y, fence] = [active, x, y, fence].map(Reg::q);
         Drawing {
@@ -122,13 +127,14 @@ impl<'m> Drawing<'m> {
             Some(_) => {
                 // Set by a pixel that has a next one: its channels after the first are added in the next
                 // one's phases.
-                let adding = m.reg("adding", 1).doc("this pixel is not the first of its span");
+                let adding = m.reg("adding", 1).doc("the current pixel is not the first of its span");
                 adding.when(self.moves, self.goes_on);
                 (self.goes_on & (self.last_phase | adding.q())).named("add")
             }
         };
         let slot = self.phase.as_ref();
-        let slot = slot.map(|phase| phase.next().named_doc("slot", "channel of each adder in this clock"));
+        let slot =
+            slot.map(|phase| phase.next().named_doc("slot", "channel that each adder serves in this clock"));
         let fresh = (links.span_valid & links.span["fresh"]).named("new_increments");
         Step { stays: self.goes_on, fresh, add, slot }
     }

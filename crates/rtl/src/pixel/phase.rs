@@ -15,7 +15,7 @@ impl<'m> Phase<'m> {
     /// None where a pixel takes one clock.
     pub fn new(m: &'m Module, clocks: u32) -> Option<Phase<'m>> {
         (clocks > 1).then(|| {
-            let counter = m.reg("phase", clocks.next_power_of_two().ilog2()).doc("clock of the pixel");
+            let counter = m.reg("phase", clocks.next_power_of_two().ilog2()).doc("clock within the pixel");
             let wraps = clocks.is_power_of_two();
             let last = if wraps { counter.q().all() } else { counter.q().eq(clocks as i32 - 1) };
             Phase { counter, last: last.named("last_phase"), wraps }

@@ -8,8 +8,8 @@ use crate::wires::Token;
 
 /// For the header of machines with terms.
 pub(super) const DOC: &str =
-    "Terms: a span brings each term's word v, its step g, and of degree 2 the step's step gg; they step with the channels,
-each with adders of its own, in one clock. They are not cut into segments, and wait for the others in the output stages.";
+    "Terms: a span brings each term's word v and step g; a term of degree 2 also brings gg, the change of g.
+Terms step with the channels, in one clock, each on its own adders. Terms have no segments; the output stages delay them.";
 
 /// The words of all terms.
 pub(super) struct Terms<'m>(Vec<(Term, Reg<'m>)>);
@@ -19,7 +19,7 @@ impl<'m> Terms<'m> {
     pub fn new(m: &'m Module, plan: &Plan, span: &Token<'m>, drawing: &Drawing<'m>) -> Terms<'m> {
         let Drawing { moves, span_ready: enters, goes_on, .. } = *drawing;
         if !plan.terms().is_empty() {
-            m.comment("The terms.");
+            m.comment("Terms, stepped once a pixel.");
         }
         let copy = |term: &Term, part: &str, doc: &str| {
             let name = format!("{}_{part}", term.name);
@@ -27,11 +27,11 @@ impl<'m> Terms<'m> {
             (m.reg(&name, loaded.width()).doc(doc), loaded)
         };
         let words = plan.terms().iter().map(|term| {
-            let (v, first) = copy(term, "v", "modular, at this pixel");
-            let (g, step) = copy(term, "g", "modular, to the next pixel");
+            let (v, first) = copy(term, "v", "term at the current pixel, modular");
+            let (g, step) = copy(term, "g", "step to the next pixel, modular");
             v.when(moves, goes_on.mux(v.q() + g.q(), first));
             if term.degree == 2 {
-                let (gg, last_step) = copy(term, "gg", "modular, from a step to the next");
+                let (gg, last_step) = copy(term, "gg", "change of the step a pixel, modular");
                 gg.when(enters, last_step);
                 g.when(moves, goes_on.mux(g.q() + gg.q(), step));
             } else {

@@ -7,12 +7,12 @@ use crate::wires::{Part, Token};
 /// The token as it was `stages` advances ago.
 pub(super) fn beside<'m>(m: &'m Module, stages: u32, advance: Signal<'m>, token: &Token<'m>) -> Token<'m> {
     m.comment(
-        "What is not divided lies in a ring as long as the stages: read at the place that is written next, so it comes when its quotients do.",
+        "The other fields wait in a ring as long as the stages. Each read is at the next write's place, so fields and quotients leave together.",
     );
     let bits = stages.next_power_of_two().ilog2();
-    let place = m.reg("place", bits).doc("in the ring, written at the next advance").reset(0);
+    let place = m.reg("place", bits).doc("place in the ring for the next write").reset(0);
     let last = place.q().eq(stages as i32 - 1);
-    let next = last.mux(0, place.q() + 1).named_doc("next_place", "the oldest");
+    let next = last.mux(0, place.q() + 1).named_doc("next_place", "oldest entry of the ring");
     place.when(advance, next);
     let mut past = Vec::new();
     for (number, group) in groups(token.parts()).into_iter().enumerate() {

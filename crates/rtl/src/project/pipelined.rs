@@ -11,9 +11,9 @@ use crate::ports::Interface;
 const DOC: &str = "Pipelined: a stage a row, x, y and z side by side.
 
   frag ─┬─> [stage 0] ─ row ─> [stage 1] ─ row ─> ... ─> [last stage] ─┬─> projected
-        └─> [ring of all else] ────────────────────────────────────────┘
+        └─> [ring of the rest] ────────────────────────────────────────┘
 
-Timing: a fragment a clock. All stages move together.";
+Timing: a fragment a clock. All stages advance together.";
 
 /// The netlist's inside.
 pub(super) fn build<'m>(m: &'m Module, plan: &Plan, ports: &Interface<'m>) {
@@ -22,10 +22,10 @@ pub(super) fn build<'m>(m: &'m Module, plan: &Plan, ports: &Interface<'m>) {
     let projected_ready = ports.gives_ready();
     let (last, bits) = (plan.shadow.rows(), plan.shadow.light_bits);
 
-    m.comment("The stages.");
-    let valid = m.reg("valid", last + 1).doc("a fragment is in the stage of that number").reset(0);
+    m.comment("Stages.");
+    let valid = m.reg("valid", last + 1).doc("bit i: stage i holds a fragment").reset(0);
     let projected_valid = valid.q().msb().named("projected_valid");
-    let advance = (!projected_valid | projected_ready).named_doc("advance", "all stages move on");
+    let advance = (!projected_valid | projected_ready).named_doc("advance", "all stages advance");
     valid.when(advance, m.cat(&[valid.q().trunc(last), frag_valid]));
 
     let kept = kept(plan, &frag);
@@ -34,17 +34,17 @@ pub(super) fn build<'m>(m: &'m Module, plan: &Plan, ports: &Interface<'m>) {
     let moved = |name: &str, doc: &str, value: Signal<'m>| {
         m.reg(name, value.width()).doc(doc).when(advance, value).q()
     };
-    m.comment("Stage 0: the numbers.");
+    m.comment("Stage 0: dividends and divisor.");
     let [x, y, z, w] = LIGHT_SPACE.map(|name| frag[name].trunc(bits));
     let mut divisor = moved("w0", "divisor", w);
     let mut numbers = [x, y, z].map(|number| (number, None));
     for (name, (rest, _)) in DIVIDED.into_iter().zip(&mut numbers) {
-        *rest = moved(&format!("{name}0"), "to be divided", *rest);
+        *rest = moved(&format!("{name}0"), "dividend", *rest);
     }
     for stage in 1..=last {
         m.comment(&format!("Stage {stage}."));
         for ((name, rows), (rest, quotient)) in DIVIDED.into_iter().zip(rows(plan)).zip(&mut numbers) {
-            let (name_of_quotient, doc) = (format!("{name}{stage}_quotient"), "as far as it is known");
+            let (name_of_quotient, doc) = (format!("{name}{stage}_quotient"), "quotient bits so far");
             if stage > rows {
                 *quotient = quotient.map(|done| moved(&name_of_quotient, "the quotient", done));
                 continue;

@@ -13,8 +13,7 @@ impl<'m> Row<'m> {
     pub fn new(name: &str, rest: Signal<'m>, divisor: Signal<'m>) -> Row<'m> {
         let m = rest.module();
         let twice = m.cat(&[rest, m.lit(1, 0)]);
-        let less =
-            (twice - divisor.zext(twice.width())).named_doc(name, "twice the rest less the divisor, signed");
+        let less = (twice - divisor.zext(twice.width())).named_doc(name, "2 * rest - divisor, signed");
         Row { twice, less }
     }
 

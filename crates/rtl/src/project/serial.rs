@@ -10,7 +10,7 @@ use crate::wires::Registers;
 
 const DOC: &str = "Serial: one fragment after the other, a row of x, y and z a clock.
 
-Timing: a fragment is offered as many clocks after it was taken as there are rows, and one. The next is taken when it goes.";
+Timing: a fragment takes one clock a row, and one more. The next fragment is taken when this one leaves.";
 
 /// The netlist's inside.
 pub(super) fn build<'m>(m: &'m Module, plan: &Plan, ports: &Interface<'m>) {
@@ -19,9 +19,9 @@ pub(super) fn build<'m>(m: &'m Module, plan: &Plan, ports: &Interface<'m>) {
     let projected_ready = ports.gives_ready();
     let (last, bits) = (plan.shadow.rows(), plan.shadow.light_bits);
 
-    m.comment("Which row it is.");
-    let busy = m.reg("busy", 1).doc("a fragment is inside").reset(0);
-    let row = m.reg("row", last.ilog2() + 1).doc("rows that are done");
+    m.comment("Row counter.");
+    let busy = m.reg("busy", 1).doc("the unit holds a fragment").reset(0);
+    let row = m.reg("row", last.ilog2() + 1).doc("rows already done");
     let done = row.q().eq(last as i32).named("done");
     let projected_valid = (busy.q() & done).named("projected_valid");
     let dividing = (busy.q() & !done).named("dividing");
@@ -35,13 +35,12 @@ pub(super) fn build<'m>(m: &'m Module, plan: &Plan, ports: &Interface<'m>) {
     let fragment = Registers::new(m, "kept", kept.parts());
     fragment.load(take, |f| kept[f]);
 
-    m.comment("The division.");
+    m.comment("Restoring division, a row a clock.");
     let [x, y, z, w] = LIGHT_SPACE.map(|name| frag[name].trunc(bits));
     let divisor = m.reg("w", bits).doc("divisor").when(take, w).q();
     let mut numbers = DIVIDED.into_iter().zip([x, y, z]).zip(rows(plan)).map(|((name, number), rows)| {
         let rest = m.reg(name, bits).doc("rest");
-        let quotient =
-            m.reg(&format!("{name}_quotient"), rows).doc("as far as it is known, from its low end");
+        let quotient = m.reg(&format!("{name}_quotient"), rows).doc("quotient bits so far, from the low end");
         let step = Row::new(&format!("{name}_less"), rest.q(), divisor);
         // A number of fewer rows than the longest stands still when it is done.
         let works = if rows == last { dividing } else { dividing & row.q().lt(rows as i32) };

@@ -22,7 +22,7 @@ impl<'m> Shone<'_, 'm> {
     /// Stage C where the tables hold colours.
     pub fn told(&self) -> [Reg<'m>; 3] {
         let b = self.plan.color.bits;
-        self.m.comment("Stage C: what all lights give, cut to the largest colour.");
+        self.m.comment("Stage C: sum over all lights, saturated at the largest colour.");
         let highlights = self.highlights();
         [0, 1, 2].map(|i| {
             let low = (2 - i as u32) * b;
@@ -35,22 +35,25 @@ impl<'m> Shone<'_, 'm> {
     /// Stages M and C where they hold the light; the colours of the triangle stand in stage B.
     pub fn multiplied(&self, triangle: &Registers<'m>) -> [Reg<'m>; 3] {
         let (m, b) = (self.m, self.plan.color.bits);
-        m.comment("Stage M: the light of all lights, at most 1.0, times the triangle's colour; the highlights of all.");
+        m.comment(
+            "Stage M: sum of diffuse light, at most 1.0, times the triangle's colour; sum of the highlights.",
+        );
         let sum = total(self.lights.iter().map(|light| light.diffuse).collect());
         // 1.0 is one bit, so whatever is more has that bit or one above.
-        let whole = sum.slice(sum.width() - 1, b + 2).any().named_doc("whole", "1.0 or more");
+        let whole =
+            sum.slice(sum.width() - 1, b + 2).any().named_doc("whole", "diffuse light saturates at 1.0");
         let light = m.cat(&[whole, whole.mux(0, sum.trunc(b + 2))]).named_doc("light", "2^-(b+2)");
-        let highlight = m.reg("m_highlight", b).doc("of all lights");
+        let highlight = m.reg("m_highlight", b).doc("sum of the highlights");
         highlight.when(self.advance, self.cut(total(self.highlights()), "highlights"));
         let colours = COLOURS.map(|name| {
             let product = (triangle[name].q() * light).named(&format!("product_{name}"));
             let half = m.lit(product.width(), 1 << (b + 1));
             let nearest = (product + half).slice(2 * b + 1, b + 2);
             m.reg(&format!("m_{name}"), b)
-                .doc("the triangle's colour in this light")
+                .doc("triangle's colour times diffuse light")
                 .when(self.advance, nearest)
         });
-        m.comment("Stage C: that and the highlight, cut to the largest colour.");
+        m.comment("Stage C: product plus highlight, saturated at the largest colour.");
         [0, 1, 2].map(|i| self.colour(i, total(vec![colours[i].q(), highlight.q()])))
     }
 
@@ -62,7 +65,7 @@ impl<'m> Shone<'_, 'm> {
 
     fn colour(&self, i: usize, all: Signal<'m>) -> Reg<'m> {
         let name = COLOURS[i];
-        let register = self.m.reg(&format!("c_{name}"), self.plan.color.bits).doc("of the pixel");
+        let register = self.m.reg(&format!("c_{name}"), self.plan.color.bits).doc("colour of the pixel");
         register.when(self.advance, self.cut(all, &format!("all_{name}")))
     }
 

@@ -25,7 +25,7 @@ impl<'m> Index<'m> {
         let cosine = |name: &str| frag[format!("{name}{light}").as_str()];
         let table_bits = plan.shade.table_bits;
         Index {
-            lit: register("lit", "the light is not below the horizon", !cosine("nl").msb()),
+            lit: register("lit", "the light is above the horizon", !cosine("nl").msb()),
             diffuse: register("diffuse", "entry of T", entry(cosine("nl"), table_bits)),
             highlight: register("highlight", "entry of S", entry(cosine("nh"), table_bits)),
         }

@@ -35,19 +35,20 @@ impl<'m> Tables<'m> {
         material: Option<Signal<'m>>,
         occupied: Signal<'m>,
     ) -> Tables<'m> {
-        m.comment("The tables inside, and the reading of others: asked for a word a clock, taken as the words come.");
+        m.comment("Tables of one material, and the fetch of the next: one read request a clock; words are loaded as they arrive.");
         let shade = &plan.shade;
         let (entry_bits, table_bits) = (shade.entry_bits(), shade.table_bits);
-        let have = m.reg("have", 1).doc("tables are inside").reset(0);
-        let loading = m.reg("loading", 1).doc("tables are being read").reset(0);
-        let asked = m.reg("asked", entry_bits + 1).doc("words asked for");
-        let taken = m.reg("taken", entry_bits).doc("words that came: light, entry");
+        let have = m.reg("have", 1).doc("tables are loaded").reset(0);
+        let loading = m.reg("loading", 1).doc("tables are being fetched").reset(0);
+        let asked = m.reg("asked", entry_bits + 1).doc("words requested");
+        let taken = m.reg("taken", entry_bits).doc("words received: light, entry");
         let current = material.map(|material| {
-            (m.reg("current", material.width()).doc("the material whose tables they are"), material)
+            (m.reg("current", material.width()).doc("material of the loaded tables"), material)
         });
         let same = current.map(|(current, material)| material.eq(current));
-        let fits =
-            same.map_or(have.q(), |same| have.q() & same).named_doc("fits", "frag's tables are inside");
+        let fits = same
+            .map_or(have.q(), |same| have.q() & same)
+            .named_doc("fits", "the tables of frag's material are loaded");
         let begins = (frag_valid & !fits & !loading.q() & !occupied).named("begins");
         // As many words as numbers of entry_bits bits: the bit above says that all are asked for.
         let read_valid = (loading.q() & !asked.q().msb()).named("srd_valid");
@@ -86,10 +87,10 @@ impl<'m> Tables<'m> {
 
     /// What stage B has: the entries, read as a fragment leaves stage A.
     pub fn look_up(&self, m: &'m Module, advance: Signal<'m>, indices: &[Index<'m>]) -> Vec<Light<'m>> {
-        m.comment("Stage B: the entries.");
+        m.comment("Stage B: the entries' values.");
         let lights = self.lights.iter().zip(indices).enumerate();
         let light = |(i, ([diffuse, highlight], index)): (usize, (&[Memory<'m>; 2], &Index<'m>))| Light {
-            lit: m.reg(&format!("b_lit{i}"), 1).doc("as in A").when(advance, index.lit).q(),
+            lit: m.reg(&format!("b_lit{i}"), 1).doc("lit, from stage A").when(advance, index.lit).q(),
             diffuse: diffuse.read(advance, index.diffuse),
             highlight: highlight.read(advance, index.highlight),
         };

@@ -18,7 +18,7 @@ pub(super) fn weakened<'m>(
     beam: Signal<'m>,
     lights: Vec<Light<'m>>,
 ) -> Vec<Light<'m>> {
-    m.comment("Stage G: the highlights as far as the light comes.");
+    m.comment("Stage G: highlights times the share of the light.");
     let bits = plan.color.bits;
     let weaken = |(i, Light { lit, diffuse, highlight }): (usize, Light<'m>)| {
         let product = (highlight * beam).named_doc(&format!("weakened{i}"), "2^-16");
@@ -27,9 +27,15 @@ pub(super) fn weakened<'m>(
         let beyond = rounded.slice(bits + 1, bits).any();
         let cut = beyond.mux(largest(m, bits), rounded.trunc(bits));
         Light {
-            lit: moved(m, advance, &format!("g_lit{i}"), "as in A", lit),
-            diffuse: moved(m, advance, &format!("g_diffuse{i}"), "as in B", diffuse),
-            highlight: moved(m, advance, &format!("g_highlight{i}"), "as far as the light comes", cut),
+            lit: moved(m, advance, &format!("g_lit{i}"), "lit, from stage B", lit),
+            diffuse: moved(m, advance, &format!("g_diffuse{i}"), "diffuse light, from stage B", diffuse),
+            highlight: moved(
+                m,
+                advance,
+                &format!("g_highlight{i}"),
+                "highlight times share of the light",
+                cut,
+            ),
         }
     };
     lights.into_iter().enumerate().map(weaken).collect()

@@ -43,10 +43,10 @@ pub(super) fn words<'m>(
     m.comment("The operations of a step, one a clock.");
     let [down, forward, back] = operations(plan);
     let (count, place_bits) = (down.len() as i32, plan.record_place_bits());
-    let op = m.reg("op", (count as u32).next_power_of_two().ilog2()).doc("of the step").reset(0);
+    let op = m.reg("op", (count as u32).next_power_of_two().ilog2()).doc("operation of the step").reset(0);
     let last = op.q().eq(count - 1).named("last_op");
     op.when(works, last.mux(0, op.q() + 1));
-    let stepped = (works & last).named_doc("stepped", "the step is done");
+    let stepped = (works & last).named_doc("stepped", "the step is complete");
     let chosen = |name: &str, operations: &[Operation], operand: fn(&Operation) -> u32| {
         let word = |operation: &Operation| m.lit(place_bits, operand(operation).into());
         let (after, before) = operations.split_last().expect("a step has operations");
@@ -63,25 +63,25 @@ pub(super) fn words<'m>(
         place.forward.mux(chosen("source_of_forward", &forward, from), chosen("source_of_back", &back, from));
     let source = place.down.mux(chosen("source_of_down", &down, from), along);
 
-    m.comment("Its result, a clock later.");
-    let under_way = m.reg("under_way", 1).doc("a result is being written").reset(0).set(works).q();
-    let result_at = m.reg("result_at", place_bits).doc("its place").set(target.named("target")).q();
-    let subtract = m.reg("subtract", 1).doc("it is a difference").set(is_back).q();
+    m.comment("The result is written one clock later.");
+    let under_way = m.reg("under_way", 1).doc("a result is written in this clock").reset(0).set(works).q();
+    let result_at = m.reg("result_at", place_bits).doc("word of the result").set(target.named("target")).q();
+    let subtract = m.reg("subtract", 1).doc("the result is a difference").set(is_back).q();
     let write = (under_way | record.comes).named("write");
     let write_at = under_way.mux(result_at, record.place).named("write_at");
-    let written = m.wire("written", record.word.width()).doc("a result, or a word of the record");
+    let written = m.wire("written", record.word.width()).doc("result, or a word of the record");
     let words = m.memory("words", place_bits, 1 << place_bits, record.word.width());
-    let words = words.doc("as in the record").write(write, write_at, written);
+    let words = words.doc("words in the order of the record").write(write, write_at, written);
     let (target, source) = (words.read(works, target), words.read(works, source.named("source")));
     let result = sum(target, source, subtract, "added").named("result");
     written.drive(under_way.mux(result, record.word));
 
-    m.comment("What walked shows.");
+    m.comment("Copies of V, X and XX for walked.");
     let mut shown = Vec::new();
     for (term, at) in places(plan) {
         let register = |part: &str, doc: &str| m.reg(&format!("{}_{part}", term.name), term.word()).doc(doc);
-        let v = register("v", "modular");
-        let x = register("x", "modular, to the next pixel");
+        let v = register("v", "term at (x, y), modular");
+        let x = register("x", "step to the next pixel, modular");
         for (register, place) in [(v, at + V), (x, at + X)] {
             // Not from `written`: the choice goes into the cell of the register.
             let of_step = under_way & result_at.eq(place as i32);
@@ -90,7 +90,7 @@ pub(super) fn words<'m>(
         }
         shown.extend([(format!("{}_v", term.name), v.q()), (format!("{}_g", term.name), x.q())]);
         if term.degree == 2 {
-            let xx = register("xx", "modular, of x to the next pixel");
+            let xx = register("xx", "change of x a pixel, modular");
             record.load(xx, at + XX);
             shown.push((format!("{}_gg", term.name), xx.q()));
         }

@@ -47,12 +47,12 @@ pub(super) struct Record<'m> {
 impl<'m> Record<'m> {
     /// It is read when a triangle's first span is offered.
     pub fn new(m: &'m Module, plan: &Plan, terms: &FromMemory<'m>, fresh_offered: Signal<'m>) -> Record<'m> {
-        m.comment("The record: asked for a word a clock, taken as the words come.");
+        m.comment("Record: one read request a clock; words are loaded as they arrive.");
         let (length, bits) = (plan.record_length(), plan.record_place_bits());
         let loading = m.reg("loading", 1).doc("a record is being read").reset(0);
-        let begun = m.reg("begun", 1).doc("the record of the span that is offered has been read").reset(0);
-        let asked = m.reg("asked", length.ilog2() + 1).doc("words asked for");
-        let taken = m.reg("taken", bits).doc("words that came");
+        let begun = m.reg("begun", 1).doc("the offered span's record is loaded").reset(0);
+        let asked = m.reg("asked", length.ilog2() + 1).doc("words requested");
+        let taken = m.reg("taken", bits).doc("words received");
         let begins = (fresh_offered & !begun.q() & !loading.q()).named("begins");
         let read_valid = (loading.q() & asked.q().ne(length as i32)).named("trd_valid");
         let comes = (loading.q() & terms.data_valid).named("word_comes");

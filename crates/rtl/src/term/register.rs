@@ -21,16 +21,16 @@ pub(super) fn words<'m>(
     record: &Record<'m>,
 ) -> Words<'m> {
     m.comment("A step back takes two clocks.");
-    let half = m.reg("half", 1).doc("of a step back the second clock").reset(0);
+    let half = m.reg("half", 1).doc("second clock of a step back").reset(0);
     let back = (!place.down & !place.forward).named("back");
     half.when(works, back & !half.q());
     let second = half.q();
-    let first = (works & !second).named_doc("first_clock", "of a step");
-    let stepped = (works & (!back | second)).named_doc("stepped", "the step is done");
+    let first = (works & !second).named_doc("first_clock", "first clock of a step");
+    let stepped = (works & (!back | second)).named_doc("stepped", "the step is complete");
 
     let mut shown = Vec::new();
     for (term, at) in places(plan) {
-        m.comment(&format!("The words of {}.", term.name));
+        m.comment(&format!("Words of term {}.", term.name));
         let word = |part: &str, doc: &str, offset: u32| {
             let register = m.reg(&format!("{}_{part}", term.name), term.word()).doc(doc);
             record.load(register, at + offset);
@@ -40,15 +40,15 @@ pub(super) fn words<'m>(
             let named = |what: &str| format!("{}_{of}_{what}", term.name);
             sum(word, step, back, &named("added")).named(&named("next"))
         };
-        let v = word("v", "modular", V);
-        let x = word("x", "modular, to the next pixel", X);
-        let y = word("y", "modular, to the next line", Y);
+        let v = word("v", "term at (x, y), modular", V);
+        let x = word("x", "step to the next pixel, modular", X);
+        let y = word("y", "step to the next line, modular", Y);
         v.when(stepped, next(v.q(), place.down.mux(y, x), "v"));
         shown.extend([(format!("{}_v", term.name), v.q()), (format!("{}_g", term.name), x.q())]);
         if term.degree == 2 {
-            let xx = word("xx", "modular, of x to the next pixel", XX).q();
-            let xy = word("xy", "modular, of x to the next line", XY).q();
-            let yy = word("yy", "modular, of y to the next line", YY).q();
+            let xx = word("xx", "change of x a pixel, modular", XX).q();
+            let xy = word("xy", "change of x a line, modular", XY).q();
+            let yy = word("yy", "change of y a line, modular", YY).q();
             x.when(first, next(x.q(), place.down.mux(xy, xx), "x"));
             y.when(first, next(y.q(), place.down.mux(yy, xy), "y"));
             shown.push((format!("{}_gg", term.name), xx));

@@ -1,6 +1,8 @@
 //! Parts of a netlist cut out for the prover: what they give is an input then, and what they take an output.
 
-use edgewalk_netlist::netlist::{Input, Item, Node, NodeId, Output, Source};
+use edgewalk_netlist::netlist::{
+    Input, Item, Memory, MemoryRead, Node, NodeId, Output, Register, Source, Update,
+};
 use edgewalk_netlist::{Netlist, Op};
 use std::sync::Arc;
 
@@ -28,10 +30,16 @@ pub fn alone(netlist: &Arc<Netlist>, module: &str) -> Arc<Netlist> {
     Arc::new(alone)
 }
 
-/// A module without its memories: what they give are inputs, and what they take outputs.
+/// A module without its memories: what they give are inputs, and what they take outputs. A ROM is a case over its address.
 pub fn without_memories(netlist: &Arc<Netlist>) -> Arc<Netlist> {
     let mut alone = Netlist::clone(netlist);
-    for memory in std::mem::take(&mut alone.memories) {
+    for (index, memory) in std::mem::take(&mut alone.memories).into_iter().enumerate() {
+        if memory.writes.is_empty() {
+            memory.reads.iter().enumerate().for_each(|(port, read)| {
+                read_case(&mut alone, &memory, read, Item::MemoryRead { memory: index, port })
+            });
+            continue;
+        }
         let mut output =
             |name: String, driver| alone.outputs.push(Output { name, doc: String::new(), driver });
         for (port, write) in memory.writes.iter().enumerate() {
@@ -55,6 +63,33 @@ pub fn without_memories(netlist: &Arc<Netlist>) -> Arc<Netlist> {
     alone.items.retain(|item| !of_memory(item));
     alone.has_clock = !alone.registers.is_empty();
     Arc::new(alone)
+}
+
+/// The output of a ROM as a register that takes a case over the address; its items stand in place of the port's.
+fn read_case(netlist: &mut Netlist, rom: &Memory, read: &MemoryRead, item: Item) {
+    let mut value = pushed(netlist, rom.width, Source::Constant { value: 0, name: None });
+    for address in 0..rom.words {
+        let word = Source::Constant { value: rom.contents.word(rom.width, address), name: None };
+        let word = pushed(netlist, rom.width, word);
+        let place = Source::Constant { value: address as u128, name: None };
+        let place = pushed(netlist, rom.addr_bits, place);
+        let here = pushed(netlist, 1, Source::Op(Op::Eq, vec![read.addr, place]));
+        value = mux(netlist, here, word, value);
+    }
+    let register = netlist.registers.len();
+    netlist.registers.push(Register {
+        name: read.name.clone(),
+        doc: String::new(),
+        node: read.node,
+        reset: None,
+        updates: vec![Update { when: Some(read.en), value }],
+    });
+    netlist.nodes[read.node.index()].source = Source::Register(register);
+    let items = netlist.items.iter().flat_map(|found| match *found == item {
+        true => vec![Item::Register(register), Item::Update(register)],
+        false => vec![found.clone()],
+    });
+    netlist.items = items.collect();
 }
 
 /// A module without instances and memories in one clock: what registers hold are inputs, and what they will hold are outputs.

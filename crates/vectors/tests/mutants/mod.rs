@@ -17,6 +17,7 @@ use crate::common;
 use edgewalk_machine::{
     Blend, BlendKind, Gate, Hazard, Machine, Plan, Precision, Shadow, ShadowLight, Transmits,
 };
+use edgewalk_netlist::Module;
 use edgewalk_netlist::mutate::mutants;
 use edgewalk_vectors::{Interface, Unit, design};
 use proof::{Proof, prove};
@@ -93,6 +94,31 @@ fn no_fault_that_is_seen_is_proved_equivalent() {
     }
     println!("{seen} faults are seen and not called equivalent");
     assert!(seen >= 4);
+}
+
+/// A ROM of four words of two bits behind an address that is never 3; nothing sees bit 1 of word 2.
+#[test]
+fn a_bit_of_a_rom_that_nobody_sees_is_equivalent() {
+    let m = Module::new("fetch", "");
+    let go = m.input("go", 1);
+    let pc = m.reg("pc", 2).reset(0);
+    pc.when(go, pc.q().eq(2).mux(0, pc.q() + 1));
+    let rom = m.memory("rom", 2, 4, 2);
+    [1, 2, 0, 3].into_iter().enumerate().for_each(|(row, word)| _ = rom.holds(row, word, ""));
+    let word = rom.read(m.lit(1, 1), pc.q());
+    let last = m.reg("last", 2).set(pc.q());
+    m.output("low", word.bit(0));
+    m.output("high", word.bit(1) & last.q().ne(2));
+    let netlist = m.finish().expect("a module");
+    let interface = Interface::new(&machine_for(common::SPAN), common::SPAN);
+    let mut equivalent = Vec::new();
+    for mutant in mutants(&netlist).iter().filter(|mutant| mutant.description.starts_with("bit ")) {
+        if prove(&interface, &netlist, mutant, false) == Proof::Equivalent {
+            equivalent.push(mutant.description.clone());
+        }
+    }
+    let word = |bit: u32, word: u32, is: u32| format!("bit {bit} of word {word} of `rom` is {is}");
+    assert_eq!(equivalent, [word(1, 2, 1), word(0, 3, 0), word(1, 3, 0)]);
 }
 
 fn machines() -> Vec<(Plan, Unit)> {

@@ -1,5 +1,5 @@
 //! Random modules with everything a builder can make: operators in each other, shared and named ones, registers with
-//! and without reset, memories, feedback, instances three deep.
+//! and without reset, memories with and without contents, feedback, instances three deep.
 
 use std::sync::Arc;
 
@@ -127,6 +127,12 @@ fn module(random: &mut Pcg64Mcg, name: &str, below: &[Arc<Netlist>], operators: 
     let (addr_bits, word) = (random.random_range(1..=4), width(random));
     let words = 1 << addr_bits;
     let ram = m.memory("ram", addr_bits, words, word).starts(u128::from(random.random::<bool>()));
+    let rom = m.memory("rom", addr_bits, words, word);
+    let mut any_word = || random.random::<u128>() & (u128::MAX >> (128 - word));
+    (0..words).step_by(3).for_each(|row| _ = ram.holds(row, any_word(), "a row of its own"));
+    (0..words).for_each(|row| _ = rom.holds(row, any_word(), ""));
+    let fetched = rom.read(!go | pool.any(random, 1), pool.any(random, addr_bits));
+    pool.push(fetched, true);
     for _ in 0..random.random_range(1..=2) {
         ram.write(go & pool.any(random, 1), pool.any(random, addr_bits), pool.any(random, word));
     }

@@ -50,7 +50,7 @@ fn exact(machine: &Plan, frame: &Frame, ids: &[i32], wanted: &HashSet<Place>) ->
     }
     let triangles: HashSet<u64> = wanted.iter().map(|(triangle, _)| *triangle).collect();
     for (number, id) in ids.iter().enumerate().filter(|(number, _)| triangles.contains(&(*number as u64))) {
-        let Some(triangle) = usize::try_from(*id).ok().and_then(|id| frame.triangles.get(id)) else {
+        let Some(triangle) = usize::try_from(*id).ok().and_then(|id| frame.triangle_at(id)) else {
             continue;
         };
         let screen = (machine.width, machine.height);

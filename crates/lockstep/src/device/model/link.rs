@@ -8,8 +8,8 @@ use crate::unit::Unit;
 use crate::values::{PortId, PortValues};
 use edgewalk_machine::{DrawState, MemoryPort, Plan, PortVertex, Ports};
 use edgewalk_model::WordIn;
-use edgewalk_model::named::Sourced;
 use edgewalk_model::ports::Held;
+use edgewalk_model::tokens::Sourced;
 use edgewalk_model::word_memory::Ask;
 use std::ops::Range;
 

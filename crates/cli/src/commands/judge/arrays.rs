@@ -1,0 +1,201 @@
+//! Arrays and pictures of another rasterizer, read and checked.
+
+use anyhow::{Context as _, Result, anyhow, bail, ensure};
+use edgewalk_judge::outside::Picture;
+use npyz::{Deserialize, NpyFile, Order};
+use std::fs::File;
+use std::io::{BufReader, Read, Seek as _};
+use std::path::{Path, PathBuf};
+
+/// What an array is called, in a folder or alone.
+const NAMES: [&str; 5] = ["coverage.npy", "id.npy", "z.npy", "rgb.npy", "lit.npy"];
+
+/// Longest header of an array that is read, bytes.
+const MAX_HEADER: u64 = 1 << 16;
+
+/// Reads what these paths name: pictures of this size, whose depths and colours have so many bits where they are integers.
+pub fn read(paths: &[PathBuf], size: (u32, u32), bits: [u32; 2]) -> Result<Picture> {
+    let mut picture = Picture { width: size.0, height: size.1, ..Picture::default() };
+    for path in paths {
+        if path.is_dir() {
+            let there: Vec<PathBuf> =
+                NAMES.iter().map(|name| path.join(name)).filter(|file| file.exists()).collect();
+            ensure!(
+                !there.is_empty(),
+                "{}: no array is there; permitted: one or more of {}, or give a .png",
+                path.display(),
+                NAMES.join(", ")
+            );
+            there.iter().try_for_each(|file| add(&mut picture, file, bits))?;
+        } else {
+            add(&mut picture, path, bits)?;
+        }
+    }
+    Ok(picture)
+}
+
+/// Reads a file into its place.
+fn add(picture: &mut Picture, path: &Path, [z_bits, color_bits]: [u32; 2]) -> Result<()> {
+    let name = path.file_name().and_then(|name| name.to_str()).unwrap_or_default();
+    let shown = || path.display().to_string();
+    let twice = match name {
+        "coverage.npy" => picture.coverage.is_some(),
+        "id.npy" => picture.id.is_some(),
+        "z.npy" => picture.z.is_some(),
+        "lit.npy" => picture.lit.is_some(),
+        _ => picture.rgb.is_some(),
+    };
+    let is_png = path.extension().is_some_and(|end| end.eq_ignore_ascii_case("png"));
+    ensure!(
+        is_png || NAMES.contains(&name),
+        "{}: the name says nothing of what the file holds; permitted: a folder, a .png, {}; rename it",
+        shown(),
+        NAMES.join(", ")
+    );
+    ensure!(!twice, "{}: given twice; permitted: each array once, and one picture", shown());
+    let size = (picture.width, picture.height);
+    if is_png {
+        picture.rgb = Some(png(path, size).with_context(shown)?);
+        return Ok(());
+    }
+    let colors = name == "rgb.npy";
+    let array = Array::open(path, size, colors).with_context(shown)?;
+    match name {
+        "coverage.npy" => picture.coverage = Some(whole(array, u32::try_from).with_context(shown)?),
+        "id.npy" => picture.id = Some(whole(array, i32::try_from).with_context(shown)?),
+        "lit.npy" => picture.lit = Some(whole(array, u8::try_from).with_context(shown)?),
+        "z.npy" => picture.z = Some(unorm(array, z_bits).with_context(shown)?),
+        _ => {
+            let values = unorm(array, color_bits).with_context(shown)?;
+            picture.rgb = Some(values.chunks_exact(3).map(|c| [c[0], c[1], c[2]]).collect());
+        }
+    }
+    Ok(())
+}
+
+/// An array whose shape is that of the screen.
+struct Array(NpyFile<BufReader<File>>);
+
+impl Array {
+    fn open(path: &Path, (width, height): (u32, u32), colors: bool) -> Result<Array> {
+        let mut file = BufReader::new(File::open(path)?);
+        // The length of the header is checked before memory is taken for it.
+        let mut start = [0; 12];
+        file.read_exact(&mut start).context("no array of numpy: it is shorter than a header")?;
+        ensure!(start.starts_with(b"\x93NUMPY"), "no array of numpy: it does not begin with \\x93NUMPY");
+        let header = match start[6] {
+            1 => u64::from(u16::from_le_bytes([start[8], start[9]])),
+            _ => u64::from(u32::from_le_bytes([start[8], start[9], start[10], start[11]])),
+        };
+        ensure!(header <= MAX_HEADER, "a header of {header} bytes; permitted: {MAX_HEADER}");
+        file.rewind()?;
+        let array = NpyFile::new(file)?;
+        let mut shape = vec![u64::from(height), u64::from(width)];
+        shape.extend(colors.then_some(3));
+        ensure!(
+            array.shape() == shape,
+            "its shape is {:?}; permitted: {shape:?}, lines from the top, columns{}",
+            array.shape(),
+            if colors { ", colours" } else { "" }
+        );
+        ensure!(
+            array.order() == Order::C,
+            "its order is Fortran's; permitted: C; numpy.ascontiguousarray makes it so"
+        );
+        Ok(Array(array))
+    }
+
+    /// Its values, if they are of this type; else the array back.
+    fn values<T: Deserialize>(self) -> Result<Result<Vec<T>>, Array> {
+        match self.0.try_data::<T>() {
+            Ok(values) => {
+                Ok(values.collect::<Result<_, _>>().map_err(|e| anyhow!("its values end early: {e}")))
+            }
+            Err(array) => Err(Array(array)),
+        }
+    }
+
+    fn of_another_type(&self, permitted: &str) -> anyhow::Error {
+        anyhow!("its type is {}; permitted: {permitted}", self.0.dtype().descr())
+    }
+}
+
+/// Tries one type of an array after the other.
+macro_rules! by_type {
+    ($array:ident, $($type:ty => $make:expr,)* else $permitted:expr) => {
+        $(let $array = match $array.values::<$type>() {
+            Ok(values) => return values.and_then($make),
+            Err(array) => array,
+        };)*
+        return Err($array.of_another_type($permitted))
+    };
+}
+
+/// Whole numbers.
+fn whole<T, E>(array: Array, of: fn(i64) -> Result<T, E>) -> Result<Vec<T>> {
+    fn all<T, E>(values: impl Iterator<Item = i64>, of: fn(i64) -> Result<T, E>) -> Result<Vec<T>> {
+        values.map(|value| of(value).map_err(|_| anyhow!("{value} is out of range"))).collect()
+    }
+    by_type!(array,
+        bool => |v| all(v.into_iter().map(i64::from), of),
+        u8 => |v| all(v.into_iter().map(i64::from), of),
+        i8 => |v| all(v.into_iter().map(i64::from), of),
+        u16 => |v| all(v.into_iter().map(i64::from), of),
+        i16 => |v| all(v.into_iter().map(i64::from), of),
+        u32 => |v| all(v.into_iter().map(i64::from), of),
+        i32 => |v| all(v.into_iter().map(i64::from), of),
+        u64 => |v| all(v.into_iter().map(|v| i64::try_from(v).unwrap_or(i64::MAX)), of),
+        i64 => |v| all(v.into_iter(), of),
+        else "bool, or integers of 8 to 64 bits"
+    );
+}
+
+/// Floats in 0 to 1, or unsigned integers in LSB of this many bits.
+fn unorm(array: Array, bits: u32) -> Result<Vec<f64>> {
+    let one = (1u64 << bits) - 1;
+    let lsb = |value: u64| {
+        ensure!(
+            value <= one,
+            "{value} is more than {one}, the most that {bits} bits hold; permitted: LSB, or floats in 0 to 1"
+        );
+        Ok(value as f64 / one as f64)
+    };
+    by_type!(array,
+        f64 => Ok,
+        f32 => |v| Ok(v.into_iter().map(f64::from).collect()),
+        u8 => |v| v.into_iter().map(|v| lsb(v.into())).collect(),
+        u16 => |v| v.into_iter().map(|v| lsb(v.into())).collect(),
+        u32 => |v| v.into_iter().map(|v| lsb(v.into())).collect(),
+        u64 => |v| v.into_iter().map(lsb).collect(),
+        else "float32, float64, or unsigned integers in LSB"
+    );
+}
+
+/// The colours of a picture; what says how much of it is seen is left out.
+fn png(path: &Path, (width, height): (u32, u32)) -> Result<Vec<[f64; 3]>> {
+    let mut decoder = png::Decoder::new(BufReader::new(File::open(path)?));
+    decoder.set_transformations(png::Transformations::EXPAND);
+    let mut reader = decoder.read_info()?;
+    let found = (reader.info().width, reader.info().height);
+    ensure!(
+        found == (width, height),
+        "the picture has {}x{} pixels; permitted: {width}x{height}, the screen of the input; draw it in that size, or set \
+         screen.width and screen.height where the input is a scene",
+        found.0,
+        found.1
+    );
+    let mut bytes = vec![0; reader.output_buffer_size()];
+    let info = reader.next_frame(&mut bytes)?;
+    bytes.truncate(info.buffer_size());
+    let values: Vec<f64> = match info.bit_depth {
+        png::BitDepth::Eight => bytes.iter().map(|byte| f64::from(*byte) / 255.0).collect(),
+        png::BitDepth::Sixteen => {
+            let words = bytes.chunks_exact(2).map(|word| u16::from_be_bytes([word[0], word[1]]));
+            words.map(|word| f64::from(word) / 65535.0).collect()
+        }
+        other => bail!("{other:?} bits a channel; permitted: 8 or 16"),
+    };
+    let samples = info.color_type.samples();
+    let color = |pixel: &[f64]| if samples < 3 { [pixel[0]; 3] } else { [pixel[0], pixel[1], pixel[2]] };
+    Ok(values.chunks_exact(samples).map(color).collect())
+}

@@ -1,0 +1,257 @@
+//! The picture of another rasterizer beside golden's, by frame: the final depth and colour of each pixel, whatever the
+//! architecture and the order of its writes.
+//!
+//! ```text
+//!  golden's picture ─┐              within the tolerance ──────────────────────────────> agrees
+//!                    ├─> pixel ─> ? the background where golden draws, or the reverse ─> missing, extra: the deciding half-plane
+//!  outside's arrays ─┘              another triangle over the pixel ──────────────────> tie of depth, or wrong winner
+//!                                   none ─────────────────────────────────────────────> depth or colour beyond, by how much
+//! ```
+//! A pixel has the cause that is found first, in the order of [`Cause::ALL`].
+
+mod picture;
+mod tolerance;
+mod rule;
+mod edge;
+mod finding;
+
+pub use edge::Edge;
+pub use finding::{Cause, Finding, Judgement};
+pub use picture::Picture;
+pub use rule::Rule;
+pub use tolerance::{Asked, Tolerance};
+
+use crate::compare::{Layers, Over, all_over};
+use anyhow::{Result, ensure};
+use edgewalk_golden::Fill;
+use edgewalk_host::raster::{Raster, from_golden, golden_fill};
+use edgewalk_machine::Plan;
+use edgewalk_scene::{Blending, Frame};
+use std::cmp::Ordering;
+use std::collections::BTreeMap;
+
+/// Judges `outside` beside golden's picture of `frame`, which has triangles only, by this rule of coverage.
+///
+/// # Errors
+/// The pictures have different sizes, or golden cannot draw the frame by the rule.
+pub fn beside_golden(
+    machine: &Plan,
+    frame: &Frame,
+    outside: &Picture,
+    tolerance: &Tolerance,
+    rule: Rule,
+) -> Result<Judgement> {
+    let fill = match rule {
+        Rule::Textbook => Fill::Textbook,
+        _ => Fill::Exact { subpixel_bits: machine.subpixel_bits },
+    };
+    let golden = |frame: &Frame| from_golden(edgewalk_golden::draw(frame, fill), machine);
+    if rule.is_plain() {
+        return judge(machine, frame, &golden(frame), outside, tolerance, fill);
+    }
+    ensure!(
+        frame.shadows.is_empty() && frame.shading.is_none(),
+        "{rule} is a rule for frames whose colours are linear between the vertices; found: a frame with shadows or with normals; judge it \
+         by top-left or textbook"
+    );
+    let frame = rule.mirrored(frame, machine.subpixel_bits);
+    let judgement = judge(machine, &frame, &golden(&frame), &rule.turned(outside.clone()), tolerance, fill)?;
+    Ok(judgement.turned(rule))
+}
+
+/// Judges `outside` beside the picture `drawn` that the machine makes of `frame`, which has triangles only: every value must be equal.
+///
+/// # Errors
+/// The pictures have different sizes.
+pub fn beside_machine(
+    machine: &Plan,
+    frame: &Frame,
+    drawn: &Raster,
+    outside: &Picture,
+    tolerance: &Tolerance,
+) -> Result<Judgement> {
+    judge(machine, frame, drawn, outside, &tolerance.exact(), golden_fill(machine))
+}
+
+fn judge(
+    machine: &Plan,
+    frame: &Frame,
+    reference: &Raster,
+    outside: &Picture,
+    tolerance: &Tolerance,
+    fill: Fill,
+) -> Result<Judgement> {
+    let (found, permitted) = ((outside.width, outside.height), (reference.width, reference.height));
+    ensure!(
+        found == permitted,
+        "the picture has {}x{} pixels; permitted: {}x{}, the screen of the input; draw it in that size, or set screen.width and \
+         screen.height where the input is a scene",
+        found.0,
+        found.1,
+        permitted.0,
+        permitted.1
+    );
+    let judge = Judge { frame, reference, outside, tolerance, layers: Layers::of(machine, frame, None) };
+    let pixels = reference.coverage.len();
+    let differ: Vec<usize> = (0..pixels).filter(|pixel| !judge.agrees(*pixel)).collect();
+    let over = match fill {
+        Fill::Exact { subpixel_bits } if judge.is_plain() => all_over(machine, frame, subpixel_bits, &differ),
+        _ => BTreeMap::new(),
+    };
+    let mut judgement = Judgement::new(reference, outside, *tolerance);
+    let mut left = differ.iter().peekable();
+    for pixel in 0..pixels {
+        if left.next_if_eq(&&pixel).is_some() {
+            let found = judge.why(pixel, over.get(&pixel).map_or(&[], Vec::as_slice));
+            judgement.differs(pixel, found, |found| judge.edge(fill, found));
+        } else {
+            judgement.agrees(judge.errors(pixel));
+        }
+    }
+    Ok(judgement)
+}
+
+/// Two pictures of a frame.
+struct Judge<'a> {
+    frame: &'a Frame,
+    reference: &'a Raster,
+    outside: &'a Picture,
+    tolerance: &'a Tolerance,
+    /// Of a frame that is blended, whose colours have a bound of their own at each pixel.
+    layers: Option<Layers>,
+}
+
+impl Judge<'_> {
+    /// Whether one fragment alone decides what a pixel shows, by its depth.
+    fn is_plain(&self) -> bool {
+        let passes = self.frame.passes();
+        let [pass] = &passes[..] else { return false };
+        pass.state.blend == Blending::Off && pass.state.stores_depth() && self.frame.shading.is_none()
+    }
+
+    /// Errors of depth and colour at a pixel, LSB; 0 of what the outside picture does not have.
+    fn errors(&self, pixel: usize) -> [f64; 2] {
+        self.beside(pixel, self.reference.z[pixel], self.reference.rgb[pixel])
+    }
+
+    fn beside(&self, pixel: usize, z: f64, rgb: [f64; 3]) -> [f64; 2] {
+        let Tolerance { z_lsb, color_lsb, .. } = self.tolerance;
+        let depth = self.outside.z.as_ref().map_or(0.0, |own| (own[pixel] - z).abs() / z_lsb);
+        let channels = |own: &Vec<[f64; 3]>| {
+            own[pixel].into_iter().zip(rgb).map(|(own, exact)| (own - exact).abs()).fold(0.0, worse)
+        };
+        [depth, self.outside.rgb.as_ref().map_or(0.0, channels) / color_lsb]
+    }
+
+    /// Largest permitted errors of depth and colour at a pixel, LSB.
+    fn permitted(&self, pixel: usize) -> [f64; 2] {
+        let layers = self.layers.as_ref().filter(|_| !self.tolerance.is_asked_for);
+        [self.tolerance.z, layers.map_or(self.tolerance.color, |layers| layers.bound[pixel])]
+    }
+
+    fn within(&self, pixel: usize, errors: [f64; 2]) -> bool {
+        // Not a number is never within.
+        errors.into_iter().zip(self.permitted(pixel)).all(|(error, permitted)| error <= permitted + 1e-9)
+    }
+
+    /// Whether a pixel shows what the reference shows, in all the arrays that there are.
+    fn agrees(&self, pixel: usize) -> bool {
+        let Picture { coverage, id, lit, .. } = self.outside;
+        let same = |own: Option<i64>, reference: i64| own.is_none_or(|own| own == reference);
+        self.within(pixel, self.errors(pixel))
+            && same(
+                coverage.as_ref().map(|own| i64::from(own[pixel])),
+                i64::from(self.reference.coverage[pixel]),
+            )
+            && same(id.as_ref().map(|own| i64::from(own[pixel])), i64::from(self.reference.id[pixel]))
+            && self.reference.lit.as_ref().is_none_or(|lits| {
+                same(lit.as_ref().map(|own| i64::from(own[pixel])), i64::from(lits[pixel]))
+            })
+    }
+
+    /// Why a pixel differs; `over`: the triangles over it, where one of them decides alone.
+    fn why(&self, pixel: usize, over: &[Over]) -> Finding {
+        let reference = self.reference;
+        let own = self.outside.id.as_ref().map(|ids| ids[pixel]);
+        let shows = |id: i32, z: f64, rgb: [f64; 3]| {
+            own.is_none_or(|own| own == id) && self.within(pixel, self.beside(pixel, z, rgb))
+        };
+        let winner = shows(reference.id[pixel], reference.z[pixel], reference.rgb[pixel]);
+        let background = shows(-1, 1.0, self.frame.clear);
+        let drawn = reference.id[pixel] >= 0;
+        let errors = self.errors(pixel);
+        let [z, _] = errors;
+        let other =
+            || over.iter().find(|over| over.id != reference.id[pixel] && shows(over.id, over.z, over.rgb));
+        // Another number of triangles over the pixel explains a wrong value before anything else does.
+        let more = self.outside.coverage.as_ref().map(|own| own[pixel].cmp(&reference.coverage[pixel]));
+        let cause = match (drawn, winner) {
+            (_, true) => self.counts(pixel),
+            (true, false) if background || more == Some(Ordering::Less) => Cause::Missing,
+            (false, false) if !background => Cause::Extra,
+            (true, false) if more == Some(Ordering::Greater) => Cause::Extra,
+            (true, false) => match other() {
+                Some(other) if (other.z - reference.z[pixel]).abs() <= self.tolerance.tie() => Cause::Tie,
+                Some(_) => Cause::WrongWinner,
+                None if own.is_some_and(|own| own != reference.id[pixel]) => Cause::WrongWinner,
+                None if z > self.permitted(pixel)[0] || z.is_nan() => Cause::Depth,
+                None => Cause::Color,
+            },
+            // A frame that stores depths alone: the picture shows the cleared depth.
+            (false, false) => Cause::Depth,
+        };
+        let shown = match cause {
+            Cause::Tie | Cause::WrongWinner => own.or_else(|| other().map(|other| other.id)),
+            Cause::Extra => own.filter(|id| *id >= 0),
+            _ => None,
+        };
+        Finding {
+            x: pixel as u32 % reference.width,
+            y: pixel as u32 / reference.width,
+            cause,
+            triangle: reference.id[pixel],
+            shown,
+            z: self.outside.z.as_ref().map(|own| [reference.z[pixel], own[pixel]]),
+            rgb: self.outside.rgb.as_ref().map(|own| [reference.rgb[pixel], own[pixel]]),
+            coverage: self.outside.coverage.as_ref().map(|own| [reference.coverage[pixel], own[pixel]]),
+            error_lsb: errors,
+            edge: None,
+        }
+    }
+
+    /// The cause at a pixel whose depth and colour are right.
+    fn counts(&self, pixel: usize) -> Cause {
+        let own = self.outside.coverage.as_ref().map(|own| own[pixel]);
+        match own {
+            Some(own) if own > self.reference.coverage[pixel] => Cause::Twice,
+            Some(own) if own < self.reference.coverage[pixel] => Cause::LayerMissing,
+            _ => Cause::Light,
+        }
+    }
+
+    /// The half-plane that decides whether the pixel of a finding is covered.
+    fn edge(&self, fill: Fill, found: &Finding) -> Option<Edge> {
+        let Fill::Exact { subpixel_bits } = fill else { return None };
+        let triangles = &self.frame.triangles;
+        let of = |id: i32| usize::try_from(id).ok().filter(|place| *place < triangles.len());
+        let of_triangle =
+            |place: usize| Edge::nearest(place, &triangles[place], subpixel_bits, (found.x, found.y));
+        match found.cause {
+            Cause::Missing => of_triangle(of(found.triangle)?),
+            Cause::Extra => match found.shown.and_then(of) {
+                Some(place) => of_triangle(place),
+                // Of the triangles that do not cover the pixel the one that comes nearest to it.
+                None => (0..triangles.len())
+                    .filter_map(of_triangle)
+                    .filter(|edge| edge.distance <= 0.0)
+                    .max_by(|a, b| a.distance.total_cmp(&b.distance)),
+            },
+            _ => None,
+        }
+    }
+}
+
+/// The larger of two errors; not a number is the largest.
+fn worse(a: f64, b: f64) -> f64 {
+    if a.is_nan() || b <= a { a } else { b }
+}

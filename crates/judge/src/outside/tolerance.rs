@@ -1,0 +1,64 @@
+//! How far another rasterizer may be from the reference.
+
+use edgewalk_machine::{Channel, Plan};
+use serde::Serialize;
+
+/// Largest permitted errors.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct Tolerance {
+    /// Of depth, LSB.
+    pub z: f64,
+    /// Of a colour, LSB.
+    pub color: f64,
+    /// An LSB of depth, in 0 to 1.
+    #[serde(skip)]
+    pub z_lsb: f64,
+    /// An LSB of a colour, in 0 to 1.
+    #[serde(skip)]
+    pub color_lsb: f64,
+    /// Bits of a depth.
+    pub z_bits: u32,
+    /// Bits of a colour.
+    pub color_bits: u32,
+    /// The user gave the tolerance of colours: it holds at each pixel.
+    #[serde(skip)]
+    pub is_asked_for: bool,
+}
+
+/// What the user asks of the tolerance.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Asked {
+    /// Bits of a value.
+    pub bits: Option<u32>,
+    /// LSB.
+    pub lsb: Option<f64>,
+}
+
+impl Tolerance {
+    /// The proved bound of the machine's outputs where nothing else is asked for; 1 LSB where none is proved, and of values with
+    /// another number of bits.
+    #[must_use]
+    pub fn of(machine: &Plan, z: Asked, color: Asked) -> Self {
+        let of = |asked: Asked, channel: &Channel| {
+            let bits = asked.bits.unwrap_or(channel.bits);
+            let proved = machine.proved_budget(channel).ok().filter(|_| bits == channel.bits);
+            let bound = proved.map_or(1.0, |budget| budget.after_rounding().to_f64());
+            (asked.lsb.unwrap_or(bound), 1.0 / ((1u64 << bits) - 1) as f64, bits)
+        };
+        let (z, z_lsb, z_bits) = of(z, &machine.channels()[0]);
+        let is_asked_for = color.bits.is_some() || color.lsb.is_some();
+        let (color, color_lsb, color_bits) = of(color, &machine.channels()[1]);
+        Tolerance { z, color, z_lsb, color_lsb, z_bits, color_bits, is_asked_for }
+    }
+
+    /// The same formats; every value must be equal.
+    #[must_use]
+    pub fn exact(self) -> Self {
+        Tolerance { z: 0.0, color: 0.0, is_asked_for: true, ..self }
+    }
+
+    /// Depths so near to one another may come out in any order, in 0 to 1: each errs by the tolerance, and both are rounded.
+    pub(super) fn tie(&self) -> f64 {
+        (2.0 * self.z + 1.0) * self.z_lsb
+    }
+}

@@ -1,0 +1,274 @@
+//! What a word of SETUP's program says, as parts with names. What each part does is written in `docs/machine.md`, and
+//! twice in code: in the slow model, and in the assembler and the datapath of the rtl.
+
+/// A word of the program.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Word {
+    /// Its line of the listing, without comment and label.
+    pub text: String,
+    /// The step of A and W; none: both stay.
+    pub step: Option<Step>,
+    /// The factor that is loaded from a row's A.
+    pub factor: Option<(Factor, Row)>,
+    /// The row that A and W are written to.
+    pub write: Option<Write>,
+    /// The result that leaves.
+    pub give: Option<Give>,
+    /// Which word comes next.
+    pub control: Control,
+    /// What else is done.
+    pub act: Option<Act>,
+}
+
+/// A and W := base, and plus or minus an operand.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Step {
+    /// What the operand is added to.
+    pub base: Base,
+    /// The row that is the operand.
+    pub row: Row,
+    /// What is made of it.
+    pub operand: Operand,
+    /// Whether it is added or subtracted.
+    pub sign: Sign,
+    /// When the step is done.
+    pub only: Only,
+}
+
+/// What the operand is added to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Base {
+    /// 0.
+    Nothing,
+    /// A and W.
+    Same,
+    /// Twice A and W.
+    Twice,
+    /// A with its low t bits 0, and W.
+    Masked,
+}
+
+/// What is added.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Operand {
+    /// The row: its A to A, its W to W.
+    Row,
+    /// To A the low bits of W, signed, to W the row's W.
+    Whole,
+    /// To A the row's A, to W the row's W and 2^(t+r-e) times the row's A.
+    Raised,
+}
+
+/// Whether the operand is added or subtracted.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Sign {
+    /// Added.
+    Plus,
+    /// Subtracted.
+    Minus,
+    /// A modulus: A - M and W + 1 if A >= 0, else A + M and W - 1; A is that before the step.
+    ByA,
+    /// Added, but subtracted if `major_right`.
+    PlusBySide,
+    /// Subtracted, but added if `major_right`.
+    MinusBySide,
+}
+
+/// When a step is done.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Only {
+    /// Always.
+    Always,
+    /// If A < 0 before it.
+    Negative,
+    /// If A >= 0 before it.
+    Positive,
+    /// If the upper part has no line.
+    NoUpper,
+    /// If `major_right`.
+    Right,
+}
+
+/// Which row is read.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Row {
+    /// This one.
+    Named(u8),
+    /// Of the table that begins here: the row of the digits of f and g, 2 f + g.
+    Digits(u8),
+    /// Of the table that begins here: the row of the edge.
+    Edge(u8),
+    /// Of the two that begin here: that of the picture, or of the map.
+    Pass(u8),
+    /// A word of a vertex.
+    Vertex(Corner, Part),
+    /// What the channel adds to its first value: in W P/2 + half P.
+    OfChannel,
+}
+
+/// Which vertex.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Corner {
+    /// The vertex at this place of the order so far.
+    Place(u8),
+    /// The upper end of the edge.
+    Upper,
+    /// The lower end of the edge.
+    Lower,
+}
+
+/// Which word of a vertex.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Part {
+    /// x of the port, in 1/P px.
+    X,
+    /// y of the port, in 1/P px.
+    Y,
+    /// The value of the lane's channel of the round.
+    Value,
+}
+
+/// A factor of a sum.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Factor {
+    /// That of the table's third row.
+    F,
+    /// That of the table's second row; behind it the leading digits of both are skipped.
+    G,
+}
+
+/// Where A and W are written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Write {
+    /// The row.
+    pub row: u8,
+    /// A only.
+    pub only_a: bool,
+}
+
+/// The results.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Give {
+    /// First line: A / P.
+    Jm,
+    /// Lines of the upper part: A / P.
+    N1,
+    /// Lines of the lower part: A / P.
+    N2,
+    /// M of the edge: A.
+    M,
+    /// q and f of the edge: W, and A / P.
+    Qf,
+    /// R of the edge: A / P.
+    R,
+    /// C of the edge: A / P.
+    C,
+    /// First value of the channel: W / P.
+    Start,
+    /// W / 2.
+    D0,
+    /// W / 2.
+    D1,
+    /// W / 2.
+    G,
+}
+
+/// Which word comes next: the one behind, or the one at a place.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Control {
+    /// The one behind.
+    Next,
+    /// The same until a triangle is there.
+    Words,
+    /// The same until no leading digit is left to skip.
+    Settle,
+    /// The same for each digit that is left.
+    Digits,
+    /// The same as often as the counter says.
+    Again,
+    /// While both digits are 0 the same with the next digits; behind the last of them that place.
+    Zeros(u16),
+    /// The digits are done; that place while there are more.
+    More(u16),
+    /// That place if A < 0.
+    Negative(u16),
+    /// That place if a checked number does not fit.
+    Unfit(u16),
+    /// That place if the upper part has no line.
+    NoUpper(u16),
+    /// That place if the lower part has no line.
+    NoLower(u16),
+    /// That place for the next round, if there is one.
+    Rounds(u16),
+    /// That place.
+    Goto(u16),
+    /// That place, until `Return`.
+    Call(u16),
+    /// The one behind the call.
+    Return,
+}
+
+impl Control {
+    /// The place that it names.
+    #[must_use]
+    pub fn place(self) -> Option<u16> {
+        use Control::*;
+        match self {
+            Zeros(at) | More(at) | Negative(at) | Unfit(at) | NoUpper(at) | NoLower(at) | Rounds(at)
+            | Goto(at) | Call(at) => Some(at),
+            Next | Words | Settle | Digits | Again | Return => None,
+        }
+    }
+}
+
+/// What else is done.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Act {
+    /// The order of the vertices is that of the port.
+    Unsorted,
+    /// The vertices at places 0 and 1 change places if A < 0.
+    Swap01,
+    /// The vertices at places 1 and 2 change places if A < 0.
+    Swap12,
+    /// `major_right` := A < 0.
+    Side,
+    /// The upper part has lines unless A < 0.
+    Upper,
+    /// The lower part has lines unless A < 0.
+    Lower,
+    /// The digits of f and g are the next ones.
+    Shift,
+    /// No number has been found not to fit.
+    Judge,
+    /// If the step, by M, leaves the sign of A, the number before it does not fit.
+    Check,
+    /// The counter := t.
+    TimesT,
+    /// The counter := t + r - e of the round, and i.
+    TimesK,
+    /// i := i + 3.
+    Scale,
+    /// The last round begins, and i := 0.
+    LastRound,
+    /// The edge is this one of major, first and second minor edge.
+    Edge(u8),
+    /// Each of the first three lanes has an edge of its own.
+    Beside,
+    /// All lanes have the same rows and digits again.
+    Alone,
+    /// The triangle is culled.
+    Drop(Drop),
+    /// The prim is there.
+    Done,
+}
+
+/// Why a triangle is culled.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Drop {
+    /// No line.
+    Lines,
+    /// No column.
+    Columns,
+    /// No area.
+    Area,
+}

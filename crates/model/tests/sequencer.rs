@@ -1,0 +1,110 @@
+//! The program of a sequenced SETUP, run word by word, against what the closed formulae of section 2 give: lines, edges
+//! and channels of triangles of all kinds, with 1, 2 and 4 lanes.
+
+use crate::common::{Triangle, any_triangle, random_machine};
+use edgewalk_machine::{MAX_CHANNELS, Machine, Plan};
+use edgewalk_model::setup::Setup;
+use edgewalk_model::setup::sequencer::SlowSetup;
+use edgewalk_model::tokens::{EdgeWalk, Prim};
+use edgewalk_model::{Culled, Events};
+use rand::{Rng, SeedableRng, rngs::StdRng};
+
+/// What the formulae give, and why the triangle is culled: an edge that is not walked has M = 0 in a sequenced SETUP.
+fn by_formulae(plan: &Plan, triangle: &Triangle, light_pass: bool) -> (Option<Prim<MAX_CHANNELS>>, [u64; 3]) {
+    let mut setup = Setup::new(plan);
+    let events = &mut Events::default();
+    setup.step(Some((triangle, 0)), false, light_pass, events);
+    while setup.prim().is_none() && !setup.tri_ready() {
+        setup.step(None, false, light_pass, events);
+    }
+    let prim = setup.prim().map(|prim| {
+        let mut prim = Prim { source: Default::default(), kt: 0, record: 0, ..*prim };
+        for (edge, lines) in prim.minor.iter_mut().zip(prim.lines) {
+            if lines == 0 {
+                *edge = EdgeWalk::default();
+            }
+        }
+        prim
+    });
+    (prim, [events.setup.culled_lines, events.setup.culled_columns, events.setup.culled_area])
+}
+
+#[derive(Default)]
+struct Seen {
+    checked: usize,
+    culled: [u64; 3],
+    clocks: u64,
+    most: u32,
+}
+
+impl Seen {
+    fn check(&mut self, plan: &Plan, count: usize, rng: &mut StdRng) {
+        let slow = SlowSetup::new(plan);
+        for _ in 0..count {
+            let triangle = any_triangle(plan, rng);
+            let light_pass = plan.shadow.draws_map() && rng.random_bool(0.5);
+            let (prim, culled) = by_formulae(plan, &triangle, light_pass);
+            let ran = slow.run::<MAX_CHANNELS>(&triangle, light_pass).expect("the program ends");
+            let context = || format!("{triangle:?} on {plan:?}");
+            assert_eq!(ran.early, 0, "rows and checks are waited for: {}", context());
+            let causes = [Culled::Lines, Culled::Columns, Culled::Area];
+            assert_eq!(causes.map(|cause| u64::from(ran.culled == Some(cause))), culled, "{}", context());
+            if let Some(prim) = prim {
+                assert_eq!(ran.prim, prim, "{}", context());
+                self.clocks += u64::from(ran.clocks);
+                self.most = self.most.max(ran.clocks);
+            }
+            for (all, one) in self.culled.iter_mut().zip(culled) {
+                *all += one;
+            }
+            self.checked += 1;
+        }
+    }
+
+    fn report(&self, name: &str) {
+        let drawn = self.checked as u64 - self.culled.iter().sum::<u64>();
+        println!(
+            "{name}: {} triangles equal, culled by lines, columns, area {:?}, mean {:.0} clocks, at most {}",
+            self.checked,
+            self.culled,
+            self.clocks as f64 / drawn as f64,
+            self.most
+        );
+        assert!(self.culled.iter().all(|culled| *culled > 0), "{:?}", self.culled);
+        assert!(2 * drawn > self.checked as u64, "more than half are drawn");
+    }
+}
+
+fn campaign(count: usize) {
+    const RANDOM: usize = 20;
+    let mut all = 0;
+    for lanes in [1, 2, 4] {
+        let mut rng = StdRng::seed_from_u64(lanes.into());
+        let lanes_key = lanes.to_string();
+        let settings = [("edge.fill", "exact"), ("edge.kind", "exact"), ("setup.lanes", lanes_key.as_str())];
+        let share = count / 6;
+        let mut own = Seen::default();
+        own.check(&Machine { lanes, ..Machine::default() }.plan().expect("can be built"), share, &mut rng);
+        own.report(&format!("{lanes} lanes, default formats"));
+        let mut others = Seen::default();
+        for _ in 0..RANDOM {
+            others.check(&random_machine(&settings, &mut rng), share.div_ceil(RANDOM), &mut rng);
+        }
+        others.report(&format!("{lanes} lanes, random machines"));
+        all += own.checked + others.checked;
+    }
+    println!("checked {all} / at least {} triangles", count - 6);
+    assert!(all + 6 >= count);
+}
+
+#[test]
+fn program_gives_what_the_formulae_say() {
+    campaign(6_000);
+}
+
+/// `cargo test --release -p edgewalk-model -- --ignored program_gives_the_same_on_many_triangles --nocapture`
+#[test]
+#[ignore = "a campaign of minutes"]
+fn program_gives_the_same_on_many_triangles() {
+    campaign(100_000);
+}
