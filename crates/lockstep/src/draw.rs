@@ -126,12 +126,13 @@ pub fn render_rtl_with(
 ) -> Result<Counters, DrawError> {
     let mut device =
         NetlistDevice::new(&*netlist(plan, Unit::MACHINE)?, &Interface::new(plan, Unit::MACHINE))?;
-    let drawn = run(plan, plan, triangles, &[Pass::all(state)], (&[], &Shading::default()), stalls, |ports| {
-        device.settle(ports);
-        let more = watch(device.simulator());
-        device.clock();
-        more
-    })?;
+    let drawn =
+        run(plan, plan, triangles, &[Pass::all(state)], (&[], &Shading::default()), stalls, |ports| {
+            device.settle(ports);
+            let more = watch(device.simulator());
+            device.clock();
+            more
+        })?;
     Ok(drawn.counters())
 }
 
@@ -150,12 +151,7 @@ impl Run<'_> {
 
     fn frame(self, plan: &Plan, passes: &[Pass]) -> Frame {
         let counters = self.counters();
-        Frame {
-            maps: self.maps.drawn_by(passes),
-            counters,
-            passes: self.spent,
-            ..self.picture.frame(plan)
-        }
+        Frame { maps: self.maps.drawn_by(passes), counters, passes: self.spent, ..self.picture.frame(plan) }
     }
 }
 

@@ -3,9 +3,9 @@
 mod difference;
 mod page;
 
+use crate::Talk;
 use crate::cost::{SynthArgs, Synthesiser};
 use crate::machine_args::MachineArgs;
-use crate::Talk;
 use crate::picture::Png;
 use crate::progress::reading;
 use crate::staging::Staging;

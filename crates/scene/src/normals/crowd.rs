@@ -123,7 +123,13 @@ fn cut(all: &mut [Member], first: usize, end: usize, parts: &mut Vec<Part>) -> u
     parts.push(Part { first, end, center, radius, sum, halves: None });
     // Equal normals are a part, however many there are.
     if count > LEAF && side.max_element() > 0.0 {
-        let axis = if side.x >= side.max_element() { 0 } else if side.y >= side.z { 1 } else { 2 };
+        let axis = if side.x >= side.max_element() {
+            0
+        } else if side.y >= side.z {
+            1
+        } else {
+            2
+        };
         members.select_nth_unstable_by(count / 2, |a, b| a.normal[axis].total_cmp(&b.normal[axis]));
         let middle = first + count / 2;
         let halves = [cut(all, first, middle, parts), cut(all, middle, end, parts)];
@@ -150,7 +156,8 @@ mod tests {
             }
             _ => DVec3::ZERO,
         });
-        let member = |(normal, k): (DVec3, u32)| Member { normal, group: k % 3, weight: f64::from(k % 5) + 0.5 };
+        let member =
+            |(normal, k): (DVec3, u32)| Member { normal, group: k % 3, weight: f64::from(k % 5) + 0.5 };
         let members: Vec<Member> = normals.zip(0..).map(member).collect();
         let mut compared = 0;
         for angle in [0.0, 0.3, 1.0, 1.6, std::f64::consts::PI] {

@@ -40,14 +40,16 @@ fn drawn(sweep: &Sweep, point: &Point) -> Result<Option<Pictures>> {
     let [mut picture, mut depth, mut color] =
         [Png::in_memory(size)?, Png::in_memory(size)?, Png::in_memory(size)?];
     let proved = Proved { reach: None, shading: None };
-    let draw =
-        |lines, take: &mut dyn FnMut(_) -> _| draw::in_bands(plan, &port, Waits::Never, lines, take);
+    let draw = |lines, take: &mut dyn FnMut(_) -> _| draw::in_bands(plan, &port, Waits::Never, lines, take);
     beside(plan, &frame, &Golden::of(&frame, plan), proved, draw, |lines| {
         picture.extend_rgb(&lines.drawn.rgb)?;
         depth.extend_heat(lines.z_error, 1.0)?;
         color.extend_heat(lines.color_error, 1.0)
     })?;
-    let images =
-        vec![("picture", picture.bytes()?), ("depth error", depth.bytes()?), ("colour error", color.bytes()?)];
+    let images = vec![
+        ("picture", picture.bytes()?),
+        ("depth error", depth.bytes()?),
+        ("colour error", color.bytes()?),
+    ];
     Ok(Some(Pictures { key: point.key.clone(), images }))
 }
