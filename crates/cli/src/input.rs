@@ -1,6 +1,7 @@
 //! What is to be drawn: a built-in scene, a mesh, or a file of screen-space triangles; and its way to the port.
 
 use crate::machine_args::MachineArgs;
+use crate::progress::reading;
 use anyhow::{Context as _, Result};
 use clap::ValueEnum as _;
 use edgewalk_golden::{HiddenLines, Order, wireframe_in_lines};
@@ -104,6 +105,7 @@ impl Source {
             return Ok(None);
         }
         if self.read.get().is_none() {
+            let _reading = reading();
             // Nobody else has set it: commands read on one thread.
             _ = self.read.set(triangle_file::read(Path::new(&self.input))?);
         }
@@ -125,6 +127,7 @@ impl Source {
         let needs = match self.triangles()? {
             Some(frame) => needs(frame, &machine),
             None => {
+                let _reading = reading();
                 let scene = Scene::open(&self.input)?;
                 let surface = scene.surface(machine.width, machine.height, guard_band(&machine));
                 needs(&self.frame_of(&scene, &surface, &machine)?.0, &machine)
@@ -139,6 +142,7 @@ impl Source {
     /// The machine has channels of the user's own: a scene has no values for them.
     pub fn surface(&self, machine: &Plan) -> Result<(Scene, Surface)> {
         extra::none(machine).with_context(|| self.input.clone())?;
+        let _reading = reading();
         let scene = Scene::open(&self.input)?;
         let surface = scene.surface(machine.width, machine.height, guard_band(machine));
         Ok((scene, surface))

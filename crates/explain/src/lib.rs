@@ -15,8 +15,8 @@ mod page;
 
 use additions::{Walk, walk};
 use anyhow::Result;
-use edgewalk_golden::{Order, ShadowMaps, draw, fragments, line_fragments};
-use edgewalk_host::draw::{Pixel, draw_frame};
+use edgewalk_golden::{Drawing, Order, ShadowMaps, fragments, line_fragments};
+use edgewalk_host::draw::{Pixel, bands, draw_frame};
 use edgewalk_host::extra;
 use edgewalk_host::port::{PortFrame, port_triangle, to_port};
 use edgewalk_host::raster::golden_fill;
@@ -113,13 +113,15 @@ pub struct Input<'a> {
 /// What of the frame the machine cannot take.
 pub fn explain(input: &Input, (x, y): (u32, u32)) -> Result<Explanation> {
     let Input { machine, frame, scene, order } = *input;
-    let picture = draw(frame, golden_fill(machine));
+    let drawing = Drawing::new(frame, golden_fill(machine));
+    // Of the picture one line is enough, however large the screen is.
+    let picture = drawing.lines(y..y + 1);
     let parts = match frame.shading {
         Some(_) => apart(frame, machine)?.unwrap_or_else(|| vec![frame.clone()]),
         None => Vec::new(),
     };
     let ports: Vec<PortFrame> = parts.iter().map(|part| to_port(part, machine)).collect::<Result<_>>()?;
-    let at = (y * machine.width + x) as usize;
+    let at = x as usize;
     let id = picture.id[at];
     let seen = usize::try_from(id).ok().and_then(|id| frame.triangle_at(id));
     let (shadows, no_shadows) = match (usize::try_from(id), &scene) {
@@ -144,7 +146,7 @@ pub fn explain(input: &Input, (x, y): (u32, u32)) -> Result<Explanation> {
         Err(why) => (None, Some(format!("{why:#}"))),
     };
     Ok(Explanation {
-        covered: picture.coverage.iter().map(|count| u64::from(*count)).sum(),
+        covered: covered(&drawing, machine),
         x,
         y,
         fragments: over(frame, machine, (x, y)),
@@ -186,6 +188,15 @@ impl Explanation {
         page::text(self, color_bits)
     }
 }
+
+/// Fragments of the whole picture.
+fn covered(drawing: &Drawing, machine: &Plan) -> u64 {
+    let pictures = bands(machine.height, (BAND / machine.width).max(1)).map(|lines| drawing.lines(lines));
+    pictures.map(|picture| picture.coverage.iter().map(|count| u64::from(*count)).sum::<u64>()).sum()
+}
+
+/// Pixels of a band, about: each takes 49 bytes.
+const BAND: u32 = 1 << 19;
 
 /// What the machine stores at a pixel, all triangles drawn.
 fn stored(frame: &Frame, machine: &Plan, pixel: (u32, u32)) -> Result<Stored> {

@@ -130,6 +130,18 @@ impl<const C: usize> Memories<C> {
         self.color.as_ref().map_or(stored, |color| color.pixel(addr, stored[0]))
     }
 
+    /// What is stored at an address of the light's map, or of the picture; without a map of the machine's own there is only the picture.
+    #[must_use]
+    pub fn stored(&self, of_map: bool, addr: u32) -> OutputWords<C> {
+        match &self.other {
+            Some(other) if of_map != self.state.light_pass => {
+                let stored = other.depth.pixel(addr);
+                other.color.as_ref().map_or(stored, |color| color.pixel(addr, stored[0]))
+            }
+            _ => self.pixel(addr),
+        }
+    }
+
     /// What the next triangles are drawn with; the machine is idle.
     pub fn set_state(&mut self, state: DrawState) {
         if let Some(other) = self.other.as_mut().filter(|_| state.light_pass != self.state.light_pass) {
