@@ -1,7 +1,7 @@
 // Drives the verilated machine with the same triangles and the same memories as the model: for timing only.
 // Usage: harness STIMULUS FRAMES CONSTANT ...
 // Prints for each frame: cycles, writes, milliseconds on the processor, milliseconds on the wall.
-// STIMULUS: little-endian 64-bit words, the fields of one triangle after the other, as at the port. memory0.bin, memory1.bin ..: the words
+// STIMULUS: little-endian 64-bit words, what is offered at the port, field by field: one triangle after the other, or one word of a triangle after the other. memory0.bin, memory1.bin ..: the words
 // of the memories that the machine does not write, in 64 bits each, or in 128 where WIDE_WORDS is defined.
 #include "Vmachine.h"
 #include "verilated.h"

@@ -45,7 +45,7 @@ struct Native<W> {
     simulator: Simulator,
     rst: InputId,
     idle: OutputId,
-    /// Where triangles enter: valid, fields, ready.
+    /// Where triangles or their words enter: valid, fields, ready.
     tri: (InputId, Vec<InputId>, OutputId),
     port: Triangles,
     memories: Vec<Served<W>>,
@@ -124,9 +124,10 @@ impl<W: Word> Native<W> {
         self.memories.iter_mut().for_each(Served::clear);
         self.picture.fill(0);
         let mut work = Work { cycles: 0, writes: 0 };
-        let mut triangles = job.triangles.iter();
         self.reset();
-        let mut next = triangles.next().map(|triangle| self.port.pack(triangle, 0));
+        let port = self.port.clone();
+        let mut tokens = job.triangles.iter().flat_map(|triangle| port.offers(triangle, 0));
+        let mut next = tokens.next();
         self.offer(next.as_deref());
         loop {
             let mut due = u64::MAX;
@@ -156,7 +157,7 @@ impl<W: Word> Native<W> {
             }
             work.cycles += 1;
             if next.is_some() && self.is_high(self.tri.2) {
-                next = triangles.next().map(|triangle| self.port.pack(triangle, 0));
+                next = tokens.next();
                 self.offer(next.as_deref());
             } else if next.is_none() && self.is_high(self.idle) {
                 return work;

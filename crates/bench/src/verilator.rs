@@ -78,6 +78,6 @@ fn frame(line: &str) -> Option<(Work, Time)> {
 
 fn stimulus(job: &Job) -> Vec<u8> {
     let port = Triangles::new(job.machine);
-    let tokens = job.triangles.iter().map(|triangle| port.pack(triangle, 0));
+    let tokens = job.triangles.iter().flat_map(|triangle| port.offers(triangle, 0));
     tokens.flatten().flat_map(|value| (value as u64).to_le_bytes()).collect() // no port of a triangle is wider
 }

@@ -1,14 +1,16 @@
 //! What is to be drawn: a built-in scene, a mesh, or a file of screen-space triangles; and its way to the port.
 
 use crate::machine_args::MachineArgs;
-use anyhow::{Context as _, Result, anyhow};
+use crate::progress::reading;
+use anyhow::{Context as _, Result};
 use clap::ValueEnum as _;
-use edgewalk_golden::Order;
+use edgewalk_golden::{HiddenLines, Order, wireframe_in_lines};
 use edgewalk_host::extra;
 use edgewalk_host::input::{fitting, in_triangles};
 use edgewalk_host::needs::needs;
 use edgewalk_host::port::guard_band;
 pub use edgewalk_host::port::{PortFrame, draw_state, port_triangle, to_port};
+use edgewalk_host::raster::golden_fill;
 use edgewalk_machine::Plan;
 use edgewalk_scene::{Blending, Frame, InputKind, PixelMethod, Scene, Surface, triangle_file};
 use std::path::Path;
@@ -23,7 +25,8 @@ pub struct Source {
     pub input: String,
     /// Shading method: constant, constant-averaged, gouraud, phong, fast-phong, wireframe (docs/shading.md).
     ///
-    /// phong and fast-phong need a machine with that shade.kind, or --engine golden; wireframe needs --engine golden.
+    /// phong and fast-phong need a machine with that shade.kind, or --engine golden; wireframe one with polygon.lines = yes, or
+    /// --engine golden.
     #[arg(long, value_enum, default_value_t = Shading::Gouraud, hide_possible_values = true)]
     pub shading: Shading,
     /// Set the keys of the machine that the input asks for, as channels.extra, blend.kind, shadow.size or
@@ -102,6 +105,7 @@ impl Source {
             return Ok(None);
         }
         if self.read.get().is_none() {
+            let _reading = reading();
             // Nobody else has set it: commands read on one thread.
             _ = self.read.set(triangle_file::read(Path::new(&self.input))?);
         }
@@ -123,6 +127,7 @@ impl Source {
         let needs = match self.triangles()? {
             Some(frame) => needs(frame, &machine),
             None => {
+                let _reading = reading();
                 let scene = Scene::open(&self.input)?;
                 let surface = scene.surface(machine.width, machine.height, guard_band(&machine));
                 needs(&self.frame_of(&scene, &surface, &machine)?.0, &machine)
@@ -137,6 +142,7 @@ impl Source {
     /// The machine has channels of the user's own: a scene has no values for them.
     pub fn surface(&self, machine: &Plan) -> Result<(Scene, Surface)> {
         extra::none(machine).with_context(|| self.input.clone())?;
+        let _reading = reading();
         let scene = Scene::open(&self.input)?;
         let surface = scene.surface(machine.width, machine.height, guard_band(machine));
         Ok((scene, surface))
@@ -152,10 +158,11 @@ impl Source {
     /// The frame as the machine draws it. A triangle file keeps its own size and mode; its polygons become triangles, so
     /// that machine and golden picture interpolate the same.
     pub fn frame(&self, machine: &Plan) -> Result<Frame> {
-        if self.is_triangle_file() {
-            return in_triangles(self.outlined(machine)?, machine);
+        match (self.is_triangle_file(), self.shading) {
+            (true, Shading::Wireframe) => self.wireframe(machine, HiddenLines::Removed),
+            (true, _) => in_triangles(self.outlined(machine)?, machine),
+            (false, _) => Ok(self.sorted(machine)?.0),
         }
-        Ok(self.sorted(machine)?.0)
     }
 
     /// The same, and of a scene with something transparent the order in which its triangles are drawn.
@@ -175,9 +182,8 @@ impl Source {
         machine: &Plan,
     ) -> Result<(Frame, Option<Order>)> {
         if self.shading == Shading::Wireframe {
-            return Err(anyhow!(
-                "--shading wireframe: the machine draws no lines; render with --engine golden"
-            ));
+            let frame = edgewalk_golden::frame(scene, surface, self.shading.golden());
+            return Ok((in_lines(&frame, machine, HiddenLines::Removed)?, None));
         }
         let frame = match self.shading.at_pixels() {
             Some(method) => scene.pixel_frame(surface, method),
@@ -191,6 +197,11 @@ impl Source {
         Ok((frame, Some(order)))
     }
 
+    /// The edges of the frame as lines, behind its surfaces or without them.
+    pub fn wireframe(&self, machine: &Plan, hidden: HiddenLines) -> Result<Frame> {
+        in_lines(&self.outlined(machine)?, machine, hidden)
+    }
+
     /// The frame with the polygons it has.
     pub fn outlined(&self, machine: &Plan) -> Result<Frame> {
         match self.triangles()? {
@@ -201,4 +212,10 @@ impl Source {
             }
         }
     }
+}
+
+/// The edges of a frame as lines, its surfaces as triangles.
+fn in_lines(frame: &Frame, machine: &Plan, hidden: HiddenLines) -> Result<Frame> {
+    let step = 1.0 / machine.z.max() as f64;
+    in_triangles(wireframe_in_lines(frame, golden_fill(machine), hidden, step), machine)
 }

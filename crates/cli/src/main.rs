@@ -97,6 +97,9 @@ fn main() -> ExitCode {
     let (talk, result) = match Cli::try_parse() {
         Ok(cli) => {
             let talk = Talk { json: cli.json, quiet: cli.quiet };
+            if talk.quiet {
+                progress::be_quiet();
+            }
             (talk, scratch::watch_signals().and_then(|()| run(&cli, talk)))
         }
         Err(page) => {

@@ -80,34 +80,41 @@ pub fn write(
     picture.finish()
 }
 
-/// An 8-bit picture as the bytes of a PNG file.
-pub fn png((width, height): (u32, u32), pixel: impl Fn(usize) -> [u8; 3]) -> Result<Vec<u8>> {
-    let mut file = Vec::new();
-    let mut encoder = png::Encoder::new(&mut file, width, height);
-    encoder.set_color(png::ColorType::Rgb);
-    let pixels: Vec<u8> = (0..width as usize * height as usize).flat_map(pixel).collect();
-    let mut writer = encoder.write_header().context("a picture")?;
-    writer.write_image_data(&pixels).context("a picture")?;
-    writer.finish().context("a picture")?;
-    Ok(file)
-}
-
-/// An 8-bit picture on its way into a file, line by line.
-pub struct Png {
+/// An 8-bit picture on its way into a file or into memory, line by line.
+pub struct Png<W: io::Write + 'static = BufWriter<File>> {
     /// For messages.
     name: String,
-    file: SharedFile,
-    stream: StreamWriter<'static, SharedFile>,
+    file: Shared<W>,
+    stream: StreamWriter<'static, Shared<W>>,
 }
 
 impl Png {
-    /// A picture of that size, still empty.
+    /// A picture of that size in a file, still empty.
     pub fn create(out: &Staging, name: &str, width: u32, height: u32) -> Result<Self> {
-        let file = SharedFile(Rc::new(RefCell::new(out.create(name)?)));
-        let name = out.name(name);
+        Png::begin(out.create(name)?, out.name(name), (width, height), png::Compression::Fast)
+    }
+}
+
+impl Png<Vec<u8>> {
+    /// A picture of that size in memory, still empty.
+    pub fn in_memory(size: (u32, u32)) -> Result<Self> {
+        Png::begin(Vec::new(), "a picture".to_owned(), size, png::Compression::Default)
+    }
+
+    /// The bytes of its file, if all pixels are there.
+    pub fn bytes(self) -> Result<Vec<u8>> {
+        let file = Rc::clone(&self.file.0);
+        self.finish()?;
+        Ok(file.take())
+    }
+}
+
+impl<W: io::Write + 'static> Png<W> {
+    fn begin(to: W, name: String, (width, height): (u32, u32), how: png::Compression) -> Result<Self> {
+        let file = Shared(Rc::new(RefCell::new(to)));
         let mut encoder = png::Encoder::new(file.clone(), width, height);
         encoder.set_color(png::ColorType::Rgb);
-        encoder.set_compression(png::Compression::Fast);
+        encoder.set_compression(how);
         let stream = encoder.write_header().and_then(png::Writer::into_stream_writer);
         Ok(Png { stream: stream.with_context(|| name.clone())?, name, file })
     }
@@ -138,10 +145,15 @@ impl Png {
 }
 
 /// The file, which has to be flushed when the encoder is done with it.
-#[derive(Clone)]
-struct SharedFile(Rc<RefCell<BufWriter<File>>>);
+struct Shared<W>(Rc<RefCell<W>>);
 
-impl io::Write for SharedFile {
+impl<W> Clone for Shared<W> {
+    fn clone(&self) -> Self {
+        Shared(Rc::clone(&self.0))
+    }
+}
+
+impl<W: io::Write> io::Write for Shared<W> {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
         self.0.borrow_mut().write(bytes)
     }

@@ -10,7 +10,7 @@ use anyhow::{Context as _, Result};
 use edgewalk_host::draw;
 use edgewalk_host::reach::reach;
 use edgewalk_host::shade::apart;
-use edgewalk_judge::beside::{Beside, Proved, beside};
+use edgewalk_judge::beside::{Beside, Golden, Proved, Subject};
 use edgewalk_judge::compare::Comparison;
 use edgewalk_judge::report::Report;
 use edgewalk_judge::setup_report::SetupReport;
@@ -47,17 +47,12 @@ pub fn pictures(
     let png = |name| Png::create(out, name, w, h);
     let (mut golden, mut image) = (png("golden.png")?, png("image.png")?);
     let (mut z_error, mut color_error) = (png("z_error.png")?, png("color_error.png")?);
-    let (triangles, mut report) = (frame.triangles.len() as u64, None::<Report>);
-    let mut show = |beside: &Beside| -> Result<()> {
+    let show = |beside: &Beside| -> Result<()> {
         golden.extend_rgb(&beside.golden.rgb)?;
         image.extend_rgb(&beside.drawn.rgb)?;
         z_error.extend_heat(beside.z_error, 1.0)?;
         color_error.extend_heat(beside.color_error, 1.0)?;
         see(beside.drawn);
-        match &mut report {
-            Some(report) => report.add(beside.drawn),
-            None => report = Some(Report::new(name, triangles, machine, beside.drawn, waits)),
-        }
         Ok(())
     };
     let apart = apart(frame, machine).with_context(|| name.to_owned())?;
@@ -79,13 +74,14 @@ pub fn pictures(
         (None, Engine::Scanline) => take(draw::scan_lines(frame, machine)?),
         (None, engine) => take(draw_port(engine, &port, machine, waits, quiet)?),
     };
-    let comparison = beside(machine, frame, proved, pass, &mut show)?;
+    let of_golden = Golden::of(frame, machine);
+    let report = Subject { name, machine, frame, golden: &of_golden, proved, waits }.report(pass, show)?;
     for picture in [golden, image, z_error, color_error] {
         picture.finish()?;
     }
-    let verdict = lights.iter().map(Comparison::verdict).fold(comparison.verdict(), Verdict::and);
+    let verdicts = report.comparison.iter().chain(&lights).map(Comparison::verdict);
+    let verdict = verdicts.fold(Verdict::Pass, Verdict::and);
     let setup = SetupReport::new(machine, &port.triangles);
-    let report = report.context("a picture without lines")?;
-    let report = Report { comparison: Some(comparison), lights, setup: Some(setup), ..report };
+    let report = Report { lights, setup: Some(setup), ..report };
     Ok((report, verdict))
 }

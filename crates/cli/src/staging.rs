@@ -34,6 +34,11 @@ impl Staging {
         Ok(BufWriter::with_capacity(1 << 16, file.with_context(|| self.name(name))?))
     }
 
+    /// A file without a name, to be written and then read again; on the disk of the target, as memory may be too small for it.
+    pub fn nameless(&self) -> Result<File> {
+        tempfile::tempfile_in(self.scratch.path()).with_context(|| self.target.display().to_string())
+    }
+
     /// What messages call the file: its place in the target.
     pub fn name(&self, name: &str) -> String {
         self.target.join(name).display().to_string()

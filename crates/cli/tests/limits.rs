@@ -4,7 +4,7 @@
 use crate::support::ended;
 use std::fs::File;
 use std::path::Path;
-use std::process::{Command, Output};
+use std::process::{Command, Output, Stdio};
 use std::time::{Duration, Instant};
 
 /// Runs the program with so many megabytes of address space.
@@ -50,6 +50,73 @@ fn a_large_picture_takes_22_bytes_a_pixel() {
         assert!(fast == golden, "{file}: bands in another order or place");
     }
     println!("checked {} fragments of 2 / 2 engines in {LIMIT} MB", fragments[0]);
+}
+
+/// Runs the program, and gives the most memory that it has had at once, bytes. Tools that it starts do not count.
+fn most_memory(folder: &Path, arguments: &[&str]) -> u64 {
+    let mut program = Command::new(env!("CARGO_BIN_EXE_edgewalk"));
+    // Nothing side by side, as memory would grow with the cores.
+    program.current_dir(folder).args(arguments).env("RAYON_NUM_THREADS", "1");
+    let errors = folder.join("errors");
+    let mut child =
+        program.stdout(Stdio::null()).stderr(File::create(&errors).unwrap()).spawn().expect("it is built");
+    let mut most = 0;
+    let status = loop {
+        // The mark only rises, so its last reading says nearly all; of a program that has ended there is none.
+        let status = std::fs::read_to_string(format!("/proc/{}/status", child.id())).unwrap_or_default();
+        let mark = status.lines().find_map(|line| line.strip_prefix("VmHWM:"));
+        let kilobytes = mark.and_then(|mark| mark.trim().trim_end_matches(" kB").parse::<u64>().ok());
+        most = most.max(kilobytes.unwrap_or(0) * 1024);
+        if let Some(status) = child.try_wait().unwrap() {
+            break status;
+        }
+        std::thread::sleep(Duration::from_millis(2));
+    };
+    let errors = std::fs::read_to_string(&errors).unwrap();
+    assert!(status.success() && most > 0, "{arguments:?}: {status}: {errors}");
+    most
+}
+
+#[test]
+fn every_command_draws_large_screens_in_little_memory() {
+    let folder = tempfile::tempdir().unwrap();
+    // Addresses have a power of two for a line, as on 8192 x 8192.
+    const SIDE: u64 = 2048;
+    let pixels = SIDE * SIDE;
+    let all = 2 * SIDE;
+    let covering = format!("size {SIDE} {SIDE}\nT 0 0 0.5 1 0 0 0  {all} 0 0.5 0 1 0 0  0 {all} 1 0 0 1 0\n");
+    let small = format!(
+        "size {SIDE} {SIDE}\nT 10.5 8.25 0.45 0.3 0.7 0.1 0  50.3 20.9 0.47 0.9 0 0 0  20.2 39.7 0.43 0 0.6 1 0\n"
+    );
+    std::fs::write(folder.path().join("covering.tri"), covering).unwrap();
+    std::fs::write(folder.path().join("small.tri"), small).unwrap();
+    let screen = [format!("screen.width={SIDE}"), format!("screen.height={SIDE}")];
+    let on_screen = ["--set", &screen[0], "--set", &screen[1]];
+    // Bands of some pixels are in memory beside what grows with the screen; commands that write no picture have none.
+    let (bands, none) = (80_000_000, 24_000_000);
+    let runs: [(&str, &str, u64); 11] = [
+        ("raster covering.tri --out raster", "", bands),
+        ("render covering.tri --out render", "screen", bands),
+        ("explain covering.tri 20 15", "screen", bands),
+        ("compare default default,formats.z_fraction=12 covering.tri --out compare", "screen", bands),
+        ("sweep covering.tri --vary memory.latency=1,2 --out sweep", "screen", bands),
+        ("size covering.tri --out size", "", bands),
+        ("replay covering.tri --from 3000000 --cycles 2 --out replay.html", "screen", bands),
+        ("triangles covering.tri --out written.tri", "", none),
+        ("trace covering.tri --cycles 2 --out trace.vcd", "screen", none),
+        ("vectors small.tri --out vectors", "screen", none),
+        ("bench small.tri --engine fast,tick,interpreter --repeat 1", "screen", none),
+    ];
+    for (command, settings, fixed) in runs {
+        let words: Vec<&str> = command.split(' ').collect();
+        let settings: &[&str] = if settings.is_empty() { &[] } else { &on_screen };
+        let most = most_memory(folder.path(), &[&words, settings].concat());
+        // 1.5 GB for 8192 x 8192.
+        let limit = pixels * 1_500_000_000 / (1 << 26) + fixed;
+        println!("{} MB of {}: {command}", most / 1_000_000, limit / 1_000_000);
+        assert!(most <= limit, "{} MB for {} permitted: {command}", most / 1_000_000, limit / 1_000_000);
+    }
+    println!("checked {0} / {0} commands", runs.len());
 }
 
 #[test]

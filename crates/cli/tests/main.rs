@@ -22,6 +22,7 @@ mod layering;
 mod lens;
 mod light;
 mod limits;
+mod lines;
 mod links;
 mod meshes;
 mod mix;

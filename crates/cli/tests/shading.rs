@@ -54,13 +54,13 @@ fn a_wireframe_shows_fewer_lines_without_the_hidden_ones() {
     let (all, seen) = (writes("all", &["--hidden-lines"]), writes("seen", &[]));
     assert_eq!((all.0, all.1), (seen.0, seen.1), "the same lines");
     assert!(seen.2 > Some(10_000) && seen.2 < all.2, "{all:?} {seen:?}");
-    for refused in [
-        &["torus", "--shading", "wireframe"][..],
-        &["torus", "--engine", "golden", "--shading", "phong", "--hidden-lines"],
+    for (refused, why) in [
+        (&["torus", "--shading", "wireframe"][..], "--engine golden"),
+        (&["torus", "--engine", "golden", "--shading", "phong", "--hidden-lines"], "--shading wireframe"),
     ] {
         let output = render(&folder.path().join("refused"), refused);
         assert_eq!(output.status.code(), Some(2));
-        assert!(String::from_utf8_lossy(&output.stderr).contains("--engine golden"), "{refused:?}");
+        assert!(String::from_utf8_lossy(&output.stderr).contains(why), "{refused:?}");
     }
 }
 

@@ -10,13 +10,7 @@ use edgewalk_numerics::Steps;
 
 /// What SETUP makes of a triangle; `None` if it is culled.
 pub fn prim<const C: usize>(machine: &Plan, triangle: &[PortVertex; 3]) -> Option<Prim<C>> {
-    let events = &mut Events::default();
-    let mut setup = Setup::new(machine);
-    setup.step(Some((triangle, 0)), false, false, events);
-    while setup.prim().is_none() && !setup.tri_ready() {
-        setup.step(None, false, false, events);
-    }
-    setup.prim().copied()
+    Setup::new(machine).run(triangle, &mut Events::default())
 }
 
 /// The depth's accumulator at every pixel that shows a triangle, minus the exact depth there, over the largest error that its

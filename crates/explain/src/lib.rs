@@ -19,15 +19,15 @@ use additions::{Walk, walk};
 use anyhow::Result;
 use dithered::{Dithered, dithered};
 use edges::{OnLine, on_line};
-use edgewalk_golden::{Order, ShadowMaps, fragments};
-use edgewalk_host::draw::{Pixel, draw_frame};
+use edgewalk_golden::{Drawing, Order, ShadowMaps, fragments, line_fragments};
+use edgewalk_host::draw::{Pixel, bands, draw_frame};
 use edgewalk_host::extra;
 use edgewalk_host::port::{PortFrame, port_triangle, to_port};
 use edgewalk_host::raster::golden_drawing;
 use edgewalk_host::shade::apart;
 use edgewalk_machine::{EdgeKind, Fill, Plan};
 use edgewalk_model::Waits;
-use edgewalk_scene::{Frame, Scene, State, Surface};
+use edgewalk_scene::{Frame, Primitive, Scene, State, Surface};
 use layers::{Layer, layers};
 use serde::Serialize;
 use shaded::{ShadedPixel, leftward, shaded};
@@ -125,15 +125,17 @@ pub struct Input<'a> {
 /// What of the frame the machine cannot take.
 pub fn explain(input: &Input, (x, y): (u32, u32)) -> Result<Explanation> {
     let Input { machine, frame, scene, order, outlined } = *input;
-    let picture = golden_drawing(frame, machine).lines(0..frame.height);
+    let drawing = golden_drawing(frame, machine);
+    // Of the picture one line is enough, however large the screen is.
+    let picture = drawing.lines(y..y + 1);
     let parts = match frame.shading {
         Some(_) => apart(frame, machine)?.unwrap_or_else(|| vec![frame.clone()]),
         None => Vec::new(),
     };
     let ports: Vec<PortFrame> = parts.iter().map(|part| to_port(part, machine)).collect::<Result<_>>()?;
-    let at = (y * machine.width + x) as usize;
+    let at = x as usize;
     let id = picture.id[at];
-    let seen = usize::try_from(id).ok().and_then(|id| frame.triangles.get(id));
+    let seen = usize::try_from(id).ok().and_then(|id| frame.triangle_at(id));
     let (shadows, no_shadows) = match (usize::try_from(id), &scene) {
         (Ok(id), None) => (shadowed(frame, machine, id, (x, y), picture.z[at])?.into_iter().collect(), None),
         (Ok(id), Some((scene, surface))) if machine.shadow.projects() => {
@@ -156,7 +158,7 @@ pub fn explain(input: &Input, (x, y): (u32, u32)) -> Result<Explanation> {
         Err(why) => (None, Some(format!("{why:#}"))),
     };
     Ok(Explanation {
-        covered: picture.coverage.iter().map(|count| u64::from(*count)).sum(),
+        covered: covered(&drawing, machine),
         x,
         y,
         fragments: over(frame, machine, (x, y)),
@@ -201,6 +203,15 @@ impl Explanation {
     }
 }
 
+/// Fragments of the whole picture.
+fn covered(drawing: &Drawing, machine: &Plan) -> u64 {
+    let pictures = bands(machine.height, (BAND / machine.width).max(1)).map(|lines| drawing.lines(lines));
+    pictures.map(|picture| picture.coverage.iter().map(|count| u64::from(*count)).sum::<u64>()).sum()
+}
+
+/// Pixels of a band, about: each takes 49 bytes.
+const BAND: u32 = 1 << 19;
+
 /// What the machine stores at a pixel, all triangles drawn.
 fn stored(frame: &Frame, machine: &Plan, pixel: (u32, u32)) -> Result<Stored> {
     let port = to_port(frame, machine)?;
@@ -215,17 +226,27 @@ fn state_of(frame: &Frame, id: usize) -> State {
     passes.iter().find(|pass| pass.primitives.contains(&id)).map_or(frame.state(), |pass| pass.state)
 }
 
-/// The triangles over a pixel, by the exact rule.
+/// The triangles and lines over a pixel, by their exact rules.
 fn over(frame: &Frame, machine: &Plan, pixel: (u32, u32)) -> Vec<Over> {
     let mut list = Vec::new();
-    for (id, triangle) in frame.triangles.iter().enumerate() {
-        let screen = (machine.width, machine.height);
-        fragments(triangle, frame.mode, machine.subpixel_bits, screen, |fragment| {
-            if (fragment.x, fragment.y) == pixel {
-                let extra = own(machine, |channel| fragment.extra(channel));
-                list.push(Over { id, z: fragment.z(), rgb: fragment.rgb(), extra });
-            }
-        });
+    let (screen, bits) = ((machine.width, machine.height), machine.subpixel_bits);
+    for (id, primitive) in frame.primitives().into_iter().enumerate() {
+        match primitive {
+            Primitive::Triangle(triangle) => fragments(triangle, frame.mode, bits, screen, |fragment| {
+                if (fragment.x, fragment.y) == pixel {
+                    let extra = own(machine, |channel| fragment.extra(channel));
+                    list.push(Over { id, z: fragment.z(), rgb: fragment.rgb(), extra });
+                }
+            }),
+            Primitive::Line(line) => line_fragments(line, frame.mode, bits, screen, |fragment| {
+                if (fragment.x, fragment.y) == pixel {
+                    let extra = own(machine, |channel| fragment.extra(channel));
+                    list.push(Over { id, z: fragment.z(), rgb: fragment.rgb(), extra });
+                }
+            }),
+            // The frame that is explained has triangles in their place.
+            Primitive::Polygon(_) => {}
+        }
     }
     list
 }

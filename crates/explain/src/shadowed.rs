@@ -42,7 +42,7 @@ pub fn shadowed(
     z: f64,
 ) -> Result<Option<ShadowedPixel>> {
     let state = state_of(frame, id);
-    let (Some(shadow), Some(triangle)) = (frame.shadow(state.light), frame.triangles.get(id)) else {
+    let (Some(shadow), Some(triangle)) = (frame.shadow(state.light), frame.triangle_at(id)) else {
         return Ok(None);
     };
     if !machine.shadow.is_there() || machine.fill != Fill::Exact || machine.edge_kind != EdgeKind::Exact {

@@ -139,7 +139,8 @@ mod tests {
         let line =
             |value: fn(usize) -> f64| Profile { values: (0..200).map(value).collect(), id: vec![0; 200] };
         let ramp = line(|x| x as f64);
-        let off = ramp.series("").points[60..140].iter().zip(&ramp.perceived("").points[60..140]);
+        let (shown, seen) = (ramp.series(""), ramp.perceived(""));
+        let off = shown.points[60..140].iter().zip(&seen.points[60..140]);
         assert!(off.map(|(a, b)| (a.1 - b.1).abs()).fold(0.0, f64::max) < 1e-6);
         let step = line(|x| if x < 100 { 50.0 } else { 150.0 });
         let perceived = step.perceived("").points;

@@ -1,8 +1,9 @@
-//! What is drawn, how, and in which order: triangles, the edge tables of polygons, the light's map.
+//! What is drawn, how, and in which order: triangles, the edge tables of polygons, lines, the light's map.
 
 use crate::cover::Cover;
 use crate::fill::Fill;
 use crate::fragment::{Fragment, Weight};
+use crate::line::Line;
 use crate::polygon::{EdgeTable, Span};
 use crate::shadow::ShadowMap;
 use crate::textbook::Walk;
@@ -22,6 +23,7 @@ pub(crate) struct DrawList<'a> {
 pub(crate) enum Item<'a> {
     Triangle(&'a Triangle),
     Polygon(EdgeTable),
+    Line(Line),
 }
 
 impl<'a> DrawList<'a> {
@@ -29,6 +31,7 @@ impl<'a> DrawList<'a> {
         let item = |primitive| match primitive {
             Primitive::Triangle(triangle) => Item::Triangle(triangle),
             Primitive::Polygon(polygon) => Item::Polygon(EdgeTable::new(polygon, frame.mode, fill.grid())),
+            Primitive::Line(line) => Item::Line(Line::new(&line.ends, frame.mode, fill.grid())),
         };
         let items = frame.primitives().into_iter().map(item).collect();
         let maps = frame.shadows.iter().map(|shadow| ShadowMap::draw(shadow, fill)).collect();
@@ -65,6 +68,7 @@ impl<'a> DrawList<'a> {
                     walk.and_then(|walk| walk.fragment(x, y).map(|stored| fragment.compare_exact_z(&stored)))
                 }
             },
+            Item::Line(line) => line.fragment(x, y).map(|stored| fragment.compare_exact_z(&stored)),
             Item::Polygon(table) => {
                 Span::over(table, x, y).map(|span| fragment.compare_exact_z(&span.fragment(x)))
             }

@@ -49,7 +49,7 @@ pub struct Picture {
     pub lit: Vec<Lit>,
 }
 
-/// Draws the triangles and polygons of `frame` in their order.
+/// Draws the triangles, polygons and lines of `frame` in their order.
 pub fn draw(frame: &Frame, fill: Fill) -> Picture {
     Drawing::new(frame, fill).lines(0..frame.height)
 }
@@ -62,7 +62,7 @@ pub struct Drawing<'a> {
 }
 
 impl<'a> Drawing<'a> {
-    /// Of the triangles and polygons of `frame`.
+    /// Of the triangles, polygons and lines of `frame`.
     pub fn new(frame: &'a Frame, fill: Fill) -> Self {
         Self { list: DrawList::new(frame, fill), screen_door: None }
     }
@@ -103,6 +103,9 @@ impl<'a> Drawing<'a> {
                     Item::Triangle(triangle) => {
                         let plot = |f: &Fragment| pen.plot(at(f.x, f.y), f);
                         list.fill().fragments_of_lines(triangle, frame.mode, width, lines.clone(), plot);
+                    }
+                    Item::Line(line) => {
+                        line.fragments_of_lines(width, lines.clone(), |f| pen.plot(at(f.x, f.y), f));
                     }
                     Item::Polygon(table) => polygon::fragments_of_lines(table, width, lines.clone(), |f| {
                         pen.plot(at(f.x, f.y), f);

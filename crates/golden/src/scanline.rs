@@ -33,6 +33,8 @@ pub enum NotOpaque {
     Passes,
     /// A light casts shadows, or each pixel is shaded.
     Light,
+    /// It has lines, which have no edges to be inside of.
+    Lines,
 }
 
 impl std::fmt::Display for NotOpaque {
@@ -41,6 +43,7 @@ impl std::fmt::Display for NotOpaque {
             Self::Depth => "the depth function is not less or lequal with depths stored",
             Self::Blend => "the frame blends, or leaves colours out",
             Self::Passes => "the rules change between its triangles",
+            Self::Lines => "the frame has lines",
             Self::Light => "the frame has a light's map, or is shaded at each pixel",
         })
     }
@@ -72,7 +75,7 @@ pub fn scan_lines(frame: &Frame, subpixel_bits: u32) -> Result<(Picture, Work), 
     let surfaces: Vec<Surface> = frame
         .primitives()
         .into_iter()
-        .map(|primitive| Surface::new(primitive, frame.mode, subpixel_bits))
+        .filter_map(|primitive| Surface::new(primitive, frame.mode, subpixel_bits))
         .collect();
     let mut picture = Picture::cleared(frame, frame.height as usize);
     let mut line = Line { func, width: frame.width, picture: &mut picture, work: Work::default() };
@@ -95,6 +98,9 @@ fn opaque(frame: &Frame) -> Result<DepthFunc, NotOpaque> {
     }
     if !frame.shadows.is_empty() || frame.shading.is_some() {
         return Err(NotOpaque::Light);
+    }
+    if !frame.lines.is_empty() {
+        return Err(NotOpaque::Lines);
     }
     match pass.state.depth {
         Some(func @ (DepthFunc::Less | DepthFunc::Lequal)) if pass.state.stores_depth() => Ok(func),

@@ -14,7 +14,8 @@ mod line;
 use crate::fill::Fill;
 use crate::picture::{Lit, Picture};
 use crate::polygon::{self, EdgeTable, Grid};
-use edgewalk_scene::{Frame, Primitive, ShadeMode, Vertex};
+use edgewalk_scene::{Frame, Line, Polygon, Primitive, ShadeMode, Triangle, Vertex};
+use std::collections::HashSet;
 
 /// What becomes of lines behind surfaces.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -64,6 +65,52 @@ pub fn wireframe(frame: &Frame, fill: Fill, hidden: HiddenLines) -> Picture {
     picture
 }
 
+/// The wireframe as a frame of surfaces and lines, for who draws those: the surfaces, in the colour of the empty screen and pushed
+/// back by `step` more, at most to the largest depth; then the edges, each once, nearer than what is there. `step`: one step of the
+/// depth buffer, by which what is drawn may be off.
+pub fn wireframe_in_lines(frame: &Frame, fill: Fill, hidden: HiddenLines, step: f64) -> Frame {
+    let primitives = frame.primitives();
+    let mut triangles = Vec::new();
+    let mut polygons = Vec::new();
+    if hidden == HiddenLines::Removed {
+        let [r, g, b] = frame.clear;
+        for primitive in &primitives {
+            let push = push(&primitive.contours(), fill.grid()) + step;
+            let back = |v: &Vertex| Vertex { z: (v.z + push).min(1.0), r, g, b, kt: 0.0, ..*v };
+            match primitive {
+                Primitive::Triangle(Triangle(vertices)) => {
+                    triangles.push(Triangle(vertices.each_ref().map(back)));
+                }
+                Primitive::Polygon(polygon) => polygons.push(Polygon {
+                    contours: polygon.contours.iter().map(|c| c.iter().map(back).collect()).collect(),
+                    after: triangles.len(),
+                }),
+                Primitive::Line(_) => {}
+            }
+        }
+    }
+    let after = triangles.len() + polygons.len();
+    let (mut lines, mut seen) = (Vec::new(), HashSet::new());
+    for primitive in &primitives {
+        let contours = primitive.contours();
+        let Some(first) = contours.first().and_then(|contour| contour.first()) else { continue };
+        for ends in contours.iter().copied().flat_map(edges) {
+            let place = |v: &Vertex| [v.x, v.y, v.z].map(f64::to_bits);
+            let mut places = ends.map(place);
+            places.sort_unstable();
+            if seen.insert(places) {
+                let colored = |v: &Vertex| match frame.mode {
+                    ShadeMode::Gouraud => *v,
+                    ShadeMode::Flat => v.colored_as(first),
+                };
+                lines.push(Line { ends: ends.map(colored), after });
+            }
+        }
+    }
+    let Frame { width, height, clear, host, .. } = *frame;
+    Frame { clear, triangles, polygons, lines, host, ..Frame::new(width, height) }
+}
+
 /// From each vertex of a contour to the next.
 fn edges(contour: &[Vertex]) -> impl Iterator<Item = [&Vertex; 2]> {
     contour.iter().zip(contour.iter().cycle().skip(1)).map(|(a, b)| [a, b])
@@ -83,6 +130,8 @@ fn pushed_back(frame: &Frame, fill: Fill) -> Vec<f64> {
             Primitive::Triangle(triangle) => {
                 fill.fragments(triangle, frame.mode, screen, |f| plot(f.x, f.y, f.z()));
             }
+            // A line hides nothing but what its pixels do.
+            Primitive::Line(_) => {}
             Primitive::Polygon(polygon) => {
                 let table = EdgeTable::new(polygon, frame.mode, fill.grid());
                 polygon::fragments(&table, screen, |f| plot(f.x, f.y, f.z()));

@@ -1,7 +1,7 @@
 //! Hidden surfaces by scan lines: the picture of a depth buffer, each pixel shaded once.
 
 use edgewalk_golden::{Fill, NO_TRIANGLE, NotOpaque, Work, draw, scan_lines};
-use edgewalk_scene::{Blending, DepthFunc, Frame, Polygon, Scene, ShadeMode, Triangle, Vertex};
+use edgewalk_scene::{Blending, DepthFunc, Frame, Line, Polygon, Scene, ShadeMode, Triangle, Vertex};
 use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64;
 
@@ -96,11 +96,13 @@ fn scenes_equal_a_depth_buffer() {
 #[test]
 fn frames_without_one_order_are_refused() {
     let plain = Frame::new(4, 4);
+    let line = Line { ends: [Vertex::default(); 2], after: 0 };
     let refused = [
         (Frame { depth: None, ..plain.clone() }, NotOpaque::Depth),
         (Frame { depth: Some(DepthFunc::Greater), ..plain.clone() }, NotOpaque::Depth),
         (Frame { depth_write: false, ..plain.clone() }, NotOpaque::Depth),
         (Frame { blend: Blending::Mix, ..plain.clone() }, NotOpaque::Blend),
+        (Frame { lines: vec![line], ..plain.clone() }, NotOpaque::Lines),
     ];
     for (frame, why) in refused {
         assert_eq!(scan_lines(&frame, 8).map(|_| ()), Err(why));

@@ -7,7 +7,7 @@ use anyhow::{Context as _, Result, anyhow};
 use edgewalk_golden::Shading;
 use edgewalk_machine::Plan;
 use edgewalk_scene::{
-    Blending, Change, Frame, InputKind, PixelMethod, Scene, Surface, Triangulated, triangle_file,
+    Blending, Change, Frame, InputKind, Line, PixelMethod, Scene, Surface, Triangulated, triangle_file,
 };
 use sha2::{Digest, Sha256};
 use std::path::Path;
@@ -164,11 +164,16 @@ pub fn fitting(name: &str, frame: Frame, machine: &Plan) -> Result<Frame> {
 /// A polygon that cannot be cut into triangles.
 pub fn in_triangles(frame: Frame, machine: &Plan) -> Result<Frame> {
     let (Triangulated { triangles, ids }, host) = sent(&frame, machine)?;
-    // So many triangles are made of the primitives before each change.
-    let before = |change: &Change| ids.iter().take_while(|id| (**id as usize) < change.after).count();
-    let changes = frame.changes.iter().map(|change| Change { after: before(change), ..*change }).collect();
+    // So many triangles are made of the primitives before this place; lines stay what they are.
+    let made = |place: usize| ids.iter().take_while(|id| (**id as usize) < place).count();
+    let places = frame.lines.iter().enumerate().map(|(number, line)| line.after + number);
+    let lines: Vec<Line> =
+        frame.lines.iter().zip(places.clone()).map(|(line, at)| Line { after: made(at), ..*line }).collect();
+    let before = |at: usize| made(at) + places.clone().take_while(|place| *place < at).count();
+    let changes =
+        frame.changes.iter().map(|change| Change { after: before(change.after), ..*change }).collect();
     let triangles = triangles.into_owned();
-    Ok(Frame { triangles, changes, polygons: Vec::new(), host, ..frame })
+    Ok(Frame { triangles, changes, polygons: Vec::new(), lines, host, ..frame })
 }
 
 /// Twelve hex digits that stand for a frame of triangles: every bit of its vertices and of its state.
@@ -183,6 +188,9 @@ pub fn hash(frame: &Frame) -> String {
         frame.changes
     ));
     digest.update(format!("{:?}\n", frame.polygons));
+    if !frame.lines.is_empty() {
+        digest.update(format!("{:?}\n", frame.lines));
+    }
     if let Some(shading) = &frame.shading {
         digest.update(format!("{shading:?}\n"));
     }

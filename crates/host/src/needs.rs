@@ -30,6 +30,10 @@ pub fn needs(frame: &Frame, machine: &Plan) -> Vec<Need> {
         let why = format!("extra {}: the machine has channels.extra = {own}", frame.extra);
         needs.push(need("channels.extra", frame.extra, why));
     }
+    if !frame.lines.is_empty() && !machine.polygon.has_lines() {
+        let why = "lines: the machine's port takes triangles only (polygon.lines = no)".to_owned();
+        needs.push(need("polygon.lines", "yes", why));
+    }
     blending(frame, machine, &mut needs);
     if let Some(first) = frame.shadows.first() {
         shadows(first, &frame.shadows, machine, &mut needs);
@@ -87,8 +91,8 @@ fn blending(frame: &Frame, machine: &Plan, needs: &mut Vec<Need>) {
     let in_mix = |place: usize| {
         passes.iter().any(|pass| pass.state.blend == Blending::Mix && pass.primitives.contains(&place))
     };
-    // Beside polygons a triangle's place among the primitives is another one.
-    let mixed = |place: usize| !frame.polygons.is_empty() || in_mix(place);
+    // Beside polygons and lines a triangle's place among the primitives is another one.
+    let mixed = |place: usize| frame.drawn() > frame.triangles.len() || in_mix(place);
     let uneven = |(place, Triangle(v)): (usize, &Triangle)| {
         let corner = (1..3).find(|corner| v[*corner].kt != v[0].kt).filter(|_| mixed(place))?;
         Some(format!("triangle {place}, vertex {corner}: kt = {} after {}", v[corner].kt, v[0].kt))
@@ -98,8 +102,14 @@ fn blending(frame: &Frame, machine: &Plan, needs: &mut Vec<Need>) {
         kts.any(|mut kts| kts.next().is_some_and(|first| kts.any(|kt| kt != first)))
             .then(|| "kt within a polygon".to_owned())
     };
+    let of_lines = || {
+        let uneven = frame.lines.iter().any(|line| line.ends[0].kt != line.ends[1].kt);
+        uneven.then(|| "kt along a line".to_owned())
+    };
     let uneven = match frame.mode {
-        ShadeMode::Gouraud => frame.triangles.iter().enumerate().find_map(uneven).or_else(of_polygons),
+        ShadeMode::Gouraud => {
+            frame.triangles.iter().enumerate().find_map(uneven).or_else(of_polygons).or_else(of_lines)
+        }
         ShadeMode::Flat => None,
     };
     if !machine.blend.is_there() {

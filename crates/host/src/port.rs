@@ -8,15 +8,15 @@ use anyhow::{Context as _, Result, anyhow};
 use edgewalk_machine::{Plan, PortVertex};
 use edgewalk_model::{DrawState, Pass, Shading};
 use edgewalk_scene::{
-    Blending, CrossingEdges, DepthFunc, Frame, Host, ShadeMode, State, Triangle, Triangulated, fits,
+    Blending, CrossingEdges, DepthFunc, Frame, Host, Line, ShadeMode, State, Triangle, Triangulated, fits,
 };
 use std::borrow::Cow;
 
 /// A frame as the machine's port takes it.
 pub struct PortFrame {
-    /// Triangles in drawing order.
+    /// Triangles and lines in drawing order.
     pub triangles: Vec<[PortVertex; 3]>,
-    /// For each of them the place of what it is a part of among the frame's triangles and polygons.
+    /// For each of them the place of what it is a part of among the frame's triangles, polygons and lines.
     pub ids: Vec<i32>,
     /// The rules, and how many triangles are drawn by each, in order; at least one.
     pub passes: Vec<Pass>,
@@ -162,13 +162,19 @@ pub fn to_port(frame: &Frame, machine: &Plan) -> Result<PortFrame> {
     }
     let (Triangulated { triangles, ids }, host) = sent(frame, machine)?;
     let (mut port, mut passes) = (Vec::with_capacity(triangles.len()), Vec::new());
+    let mut parts = parts(&triangles, &ids, frame).into_iter().peekable();
+    let mut ids = Vec::with_capacity(triangles.len() + frame.lines.len());
     for pass in frame.passes() {
-        let parts = ids.iter().take_while(|id| (**id as usize) < pass.primitives.end).count();
-        for (triangle, id) in triangles[port.len()..parts].iter().zip(&ids[port.len()..parts]) {
-            port.push(port_triangle(*id as usize, triangle, frame, &pass.state, machine)?);
+        let before = port.len();
+        while let Some((id, part)) = parts.next_if(|(id, _)| *id < pass.primitives.end) {
+            port.push(match part {
+                Part::Triangle(triangle) => port_triangle(id, triangle, frame, &pass.state, machine)?,
+                Part::Line(line) => port_line(id, line, frame, &pass.state, machine)?,
+            });
+            ids.push(id as i32); // a frame has fewer
         }
         passes.push(Pass {
-            triangles: parts - passes.iter().map(|pass: &Pass| pass.triangles).sum::<usize>(),
+            triangles: port.len() - before,
             state: draw_state(frame, &pass.state, machine)?,
             clear_depth: pass.clear_depth,
             map: frame.shadow(pass.state.light).map(|_| pass.state.light - 1),
@@ -177,6 +183,40 @@ pub fn to_port(frame: &Frame, machine: &Plan) -> Result<PortFrame> {
     let lights = frame.shadows.iter().map(|shadow| light::map(shadow, machine)).collect::<Result<_>>()?;
     let shade = feed(frame, (&port, &ids), machine)?;
     Ok(PortFrame { triangles: port, ids, passes, lights, host, shade })
+}
+
+/// What the port takes one after another.
+enum Part<'a> {
+    Triangle(&'a Triangle),
+    Line(&'a Line),
+}
+
+/// Triangles and lines in drawing order, with their places among the frame's primitives.
+fn parts<'a>(triangles: &'a [Triangle], ids: &[i32], frame: &'a Frame) -> Vec<(usize, Part<'a>)> {
+    let triangles = ids.iter().zip(triangles).map(|(id, triangle)| (*id as usize, Part::Triangle(triangle)));
+    let lines = frame.lines.iter().enumerate().map(|(number, line)| (line.after + number, Part::Line(line)));
+    let mut parts: Vec<_> = triangles.chain(lines).collect();
+    if !frame.lines.is_empty() {
+        parts.sort_by_key(|(place, _)| *place); // stable
+    }
+    parts
+}
+
+/// Snaps line number `index` among the frame's primitives to the port, as [`port_triangle`] does a triangle.
+fn port_line(
+    index: usize,
+    line: &Line,
+    frame: &Frame,
+    state: &State,
+    machine: &Plan,
+) -> Result<[PortVertex; 3]> {
+    let [a, b] = line.ends;
+    let name = |corner: Option<usize>| match corner {
+        Some(corner) => format!("line {index}, end {}", corner.min(1)),
+        None => format!("line {index}"),
+    };
+    let [a, _, b] = port_vertices(index, &Triangle([a, a, b]), frame, state, machine, &name)?;
+    Ok(machine.line([a, b]))
 }
 
 /// The rules of a pass as a machine has them that meets the [needs](crate::needs) of the frame.
@@ -206,13 +246,29 @@ pub fn port_triangle(
     state: &State,
     machine: &Plan,
 ) -> Result<[PortVertex; 3]> {
+    let name = |corner: Option<usize>| match corner {
+        Some(corner) => format!("triangle {index}, vertex {corner}"),
+        None => format!("triangle {index}"),
+    };
+    port_vertices(index, triangle, frame, state, machine, &name)
+}
+
+/// Snaps the vertices of the primitive at place `index` to the port; `name`: what errors call it, or one of its corners.
+fn port_vertices(
+    index: usize,
+    triangle: &Triangle,
+    frame: &Frame,
+    state: &State,
+    machine: &Plan,
+    name: &dyn Fn(Option<usize>) -> String,
+) -> Result<[PortVertex; 3]> {
     let (mixes, mode) = (state.blend == Blending::Mix, frame.mode);
     let mut port = [PortVertex::default(); 3];
-    let light = light::values(frame.shadow(state.light), index, &triangle.0, machine)
-        .with_context(|| format!("triangle {index}"))?;
+    let light =
+        light::values(frame.shadow(state.light), index, &triangle.0, machine).with_context(|| name(None))?;
     for (corner, (slot, v)) in port.iter_mut().zip(&triangle.0).enumerate() {
         let v = if mode == ShadeMode::Flat { v.colored_as(&triangle.0[0]) } else { *v };
-        let named = || format!("triangle {index}, vertex {corner}");
+        let named = || name(Some(corner));
         let mut values = vec![v.z, v.r, v.g, v.b];
         values.extend_from_slice(&v.extra[..machine.extra as usize]);
         if machine.shadow.is_there() {

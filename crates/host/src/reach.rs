@@ -2,7 +2,7 @@
 
 use crate::port::PortFrame;
 use anyhow::{Result, anyhow};
-use edgewalk_machine::{Channel, ErrorBudget, Fill, Hazard, Machine, Plan};
+use edgewalk_machine::{Channel, ErrorBudget, Fill, Hazard, Machine, Plan, PortVertex, Role};
 use edgewalk_model::DrawState;
 use edgewalk_model::fast::{Passage, Renderer};
 use edgewalk_numerics::Steps;
@@ -69,8 +69,9 @@ pub fn geometry(machine: &Plan, port: &PortFrame) -> Result<Passage> {
         as_untimed(keys);
     });
     let plan = bare.plan()?;
-    let of_plan = |triangle: &[_; 3]| {
-        triangle.map(|v: edgewalk_machine::PortVertex| plan.raw_vertex(v.x(), v.y(), v.values()))
+    let of_plan = |triangle: &[PortVertex; 3]| {
+        let vertices = triangle.map(|v| plan.raw_vertex(v.x(), v.y(), v.values()));
+        plan.with_role(vertices, Role::of(triangle))
     };
     let triangles = port.triangles.iter().map(of_plan);
     // The rules decide what is stored, not where it is stepped: those of the first pass serve.

@@ -30,7 +30,11 @@ impl Occupancy {
     pub fn of(machine: &Plan, cycles: u64, held: &Held) -> Self {
         // A triangle has three edges, and so many channels; each round takes one a lane.
         let jobs = [3, machine.channels().len() as u32];
-        let at_work = jobs.map(|jobs| f64::from(jobs) / f64::from(jobs.div_ceil(machine.lanes)));
+        // The lanes of a sequenced SETUP do the steps of its program together.
+        let at_work = jobs.map(|jobs| match machine.is_sequenced() {
+            true => f64::from(machine.lanes),
+            false => f64::from(jobs) / f64::from(jobs.div_ceil(machine.lanes)),
+        });
         let lane_clocks: f64 =
             held.setup.iter().zip(at_work).map(|(clocks, lanes)| *clocks as f64 * lanes).sum();
         Occupancy {

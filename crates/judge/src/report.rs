@@ -138,7 +138,7 @@ impl Report {
     /// As a page of text.
     #[must_use]
     pub fn text(&self) -> String {
-        let mut t = self.drawn.lines();
+        let mut t = self.drawn.in_lines();
         if let Some(order) = &self.order {
             // Writing to a string cannot fail.
             _ = writeln!(t, "transparent triangles, drawn last, from back to front: {}", order.transparent);

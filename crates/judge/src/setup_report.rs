@@ -85,13 +85,8 @@ impl SetupReport {
         let mut setup = Setup::<C>::new(machine);
         for triangle in triangles {
             let mut met = Events::default();
-            let mut clocks = 0;
-            setup.step(Some((triangle, 0)), false, false, &mut met);
-            while setup.prim().is_none() && !setup.tri_ready() {
-                setup.step(None, false, false, &mut met);
-                clocks += 1;
-            }
-            let pixels = setup.prim().map(|prim| pixels(machine, prim));
+            let pixels = setup.run(triangle, &mut met).map(|prim| pixels(machine, &prim));
+            let clocks = setup.clocks().all();
             setup.step(None, true, false, &mut met); // EDGE takes it
             let fate = match pixels {
                 None if met.setup.culled_lines > 0 => 0,

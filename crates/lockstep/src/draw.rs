@@ -62,10 +62,33 @@ pub fn render_rtl_passes(
     stalls: StallKind,
     shading: &Shading,
 ) -> Result<Frame, DrawError> {
+    render_on(&mut tagged_netlist(plan)?, plan, triangles, passes, maps, stalls, shading)
+}
+
+/// Draws the triangles by one state, as [`render_rtl`] does; gives the counters and no picture, which on a large screen takes much memory.
+///
+/// # Errors
+/// Triangles whose vertices were made for another machine.
+pub fn tick_rtl(
+    plan: &Plan,
+    triangles: impl IntoIterator<Item = [PortVertex; 3]>,
+    state: DrawState,
+    shading: &Shading,
+) -> Result<Counters, DrawError> {
+    let mut device = tagged_netlist(plan)?;
+    let passes = [Pass::all(state)];
+    let drawn = run(plan, &plan.tagged(), triangles, &passes, (&[], shading), StallKind::None, |ports| {
+        device.cycle(ports);
+        true
+    })?;
+    Ok(drawn.counters())
+}
+
+/// The netlist of the machine with tags of 32 bits, in the interpreter.
+fn tagged_netlist(plan: &Plan) -> Result<NetlistDevice, DrawError> {
     let tagged = plan.tagged();
-    let mut device =
-        NetlistDevice::new(&*netlist(&tagged, Unit::MACHINE)?, &Interface::new(&tagged, Unit::MACHINE))?;
-    render_on(&mut device, plan, triangles, passes, maps, stalls, shading)
+    let (netlist, interface) = (netlist(&tagged, Unit::MACHINE)?, Interface::new(&tagged, Unit::MACHINE));
+    Ok(NetlistDevice::new(&*netlist, &interface)?)
 }
 
 /// As [`render_rtl_passes`], by a device that has just been reset and has the ports of the machine with tags of 32 bits,
@@ -82,14 +105,15 @@ pub fn render_on(
     stalls: StallKind,
     shading: &Shading,
 ) -> Result<Frame, DrawError> {
-    run(plan, &plan.tagged(), triangles, passes, (maps, shading), stalls, |ports| {
+    let drawn = run(plan, &plan.tagged(), triangles, passes, (maps, shading), stalls, |ports| {
         device.cycle(ports);
         true
-    })
+    })?;
+    Ok(drawn.frame(plan, passes))
 }
 
-/// As [`render_rtl`], with the machine as it is, so that ids are the tags that it has, or none; `watch` sees the netlist in
-/// every cycle, before the clock edge, and ends the run by returning false.
+/// Runs the machine as it is, without other tags, as [`render_rtl`] does; gives the counters and no picture, which on a large screen takes
+/// much memory. `watch` sees the netlist in every cycle, before the clock edge, and ends the run by returning false.
 ///
 /// # Errors
 /// Triangles whose vertices were made for another machine.
@@ -99,27 +123,48 @@ pub fn render_rtl_with(
     state: DrawState,
     stalls: StallKind,
     mut watch: impl FnMut(&mut Simulator) -> bool,
-) -> Result<Frame, DrawError> {
+) -> Result<Counters, DrawError> {
     let mut device =
         NetlistDevice::new(&*netlist(plan, Unit::MACHINE)?, &Interface::new(plan, Unit::MACHINE))?;
-    run(plan, plan, triangles, &[Pass::all(state)], (&[], &Shading::default()), stalls, |ports| {
-        device.settle(ports);
-        let more = watch(device.simulator());
-        device.clock();
-        more
-    })
+    let drawn =
+        run(plan, plan, triangles, &[Pass::all(state)], (&[], &Shading::default()), stalls, |ports| {
+            device.settle(ports);
+            let more = watch(device.simulator());
+            device.clock();
+            more
+        })?;
+    Ok(drawn.counters())
+}
+
+/// What a run leaves: the memories, and the counters of each pass.
+struct Run<'a> {
+    picture: Picture,
+    maps: Maps<'a>,
+    spent: Vec<Counters>,
+}
+
+impl Run<'_> {
+    /// Of all passes.
+    fn counters(&self) -> Counters {
+        self.spent.iter().fold(Counters::default(), |sum, pass| sum.and(pass))
+    }
+
+    fn frame(self, plan: &Plan, passes: &[Pass]) -> Frame {
+        let counters = self.counters();
+        Frame { maps: self.maps.drawn_by(passes), counters, passes: self.spent, ..self.picture.frame(plan) }
+    }
 }
 
 /// `cycle`: a clock of the device, which gives the outputs before the edge; false if enough was seen.
-fn run(
+fn run<'a>(
     plan: &Plan,
     tagged: &Plan,
     triangles: impl IntoIterator<Item = [PortVertex; 3]>,
     passes: &[Pass],
-    (maps, shading): (&[Vec<u32>], &Shading),
+    (maps, shading): (&'a [Vec<u32>], &Shading),
     stalls: StallKind,
     mut cycle: impl FnMut(&mut PortValues) -> bool,
-) -> Result<Frame, DrawError> {
+) -> Result<Run<'a>, DrawError> {
     let interface = Interface::new(tagged, Unit::MACHINE);
     let (port, mut foreign) = (Triangles::new(tagged), None);
     let mut tokens = triangles.into_iter().zip(0..).map_while(|(triangle, number): (_, u32)| {
@@ -166,10 +211,17 @@ fn run(
                         "textures" => Some(&shading.textures),
                         _ => None,
                     };
-                    setting.clear = filled_by_host.map_or(setting.clear, |_| 0);
+                    setting.clear = match (filled_by_host, memory.name) {
+                        (Some(_), _) => 0,
+                        (None, "map") => setting.clear,
+                        (None, "color") => page.color(plan, |channel| page.cleared[channel]),
+                        (None, _) => page.cleared[0].into(),
+                    };
                     setting.start = match (filled_by_host, memory.name) {
                         (Some(words), _) => words.as_slice().into(),
                         (None, "map") => Arc::clone(&map),
+                        // It is as it was cleared.
+                        (None, _) if !page.written => Arc::default(),
                         (None, "color") => page.colors(plan),
                         (None, _) => page.stored[0].iter().map(|word| u128::from(*word)).collect(),
                     };
@@ -188,9 +240,7 @@ fn run(
         }
     }
     drop(tokens);
-    let counters = spent.iter().fold(Counters::default(), |sum, pass| sum.and(pass));
-    let frame = Frame { maps: maps.drawn_by(passes), counters, passes: spent, ..picture.frame(plan) };
-    foreign.map_or(Ok(frame), |foreign| Err(foreign.into()))
+    foreign.map_or(Ok(Run { picture, maps, spent }), |foreign| Err(foreign.into()))
 }
 
 /// Until all its triangles are drawn; false if enough was seen before.
@@ -215,7 +265,9 @@ fn draw_part(
 
 /// What the ports tell of every address, and of the run.
 struct Picture {
-    tri: Link,
+    triangles: Link,
+    /// Words taken of the triangle that comes, where it comes word by word.
+    words: usize,
     rd: Link,
     /// The write of the pixel; with BLEND that of its colours, and the depth has its own.
     write: Writes,
@@ -235,6 +287,8 @@ struct Picture {
     counters: Counters,
     /// To what each channel is cleared.
     cleared: Vec<u32>,
+    /// Something was stored.
+    written: bool,
 }
 
 /// A link that writes, and what of it is stored where.
@@ -298,7 +352,8 @@ impl Picture {
         };
         let cleared: Vec<u32> = (0..plan.channels().len()).map(clear).collect();
         Picture {
-            tri: link("tri"),
+            triangles: interface.links.first().cloned().expect("a machine takes triangles"),
+            words: 0,
             rd: link("rd"),
             tag: write.place("tag"),
             lit_field: write.place("lit"),
@@ -313,6 +368,7 @@ impl Picture {
             lit: vec![0; words],
             counters: Counters::default(),
             cleared,
+            written: false,
         }
     }
 
@@ -332,10 +388,13 @@ impl Picture {
 
     /// The words of the colour memory: red is the most significant.
     fn colors(&self, plan: &Plan) -> Arc<[u128]> {
-        let [_, red, green, blue, ..] = &self.stored[..] else { return Arc::default() };
-        let bits = plan.color.bits;
-        let words = red.iter().zip(green).zip(blue);
-        words.map(|((r, g), b)| (u128::from(*r) << bits | u128::from(*g)) << bits | u128::from(*b)).collect()
+        let words = 0..self.stored[0].len();
+        words.map(|address| self.color(plan, |channel| self.stored[channel][address])).collect()
+    }
+
+    /// A word of the colour memory.
+    fn color(&self, plan: &Plan, channel: impl Fn(usize) -> u32) -> u128 {
+        (1..=3).fold(0, |word, place| word << plan.color.bits | u128::from(channel(place)))
     }
 
     fn is_idle(&self, ports: &PortValues) -> bool {
@@ -347,15 +406,22 @@ impl Picture {
         counters.cycles += 1;
         let activity = Activity::ALL.get(ports[self.activity] as usize).copied().unwrap_or_default();
         counters.activity[activity as usize] += 1;
-        counters.triangles += u64::from(self.tri.fires(ports));
+        if self.triangles.fires(ports) {
+            self.words += 1;
+            if self.words >= self.triangles.words.len() {
+                self.words = 0;
+                counters.triangles += 1;
+            }
+        }
         if let Some([address, ..]) = self.rd.fires(ports).then(|| self.rd.token(ports)) {
             self.coverage[*address as usize] += 1;
             counters.fragments += 1;
         }
         if let Some(depths) = &self.depth_write {
-            depths.store(ports, &mut self.stored);
+            self.written |= depths.store(ports, &mut self.stored).is_some();
         }
         if let Some(address) = self.write.store(ports, &mut self.stored) {
+            self.written = true;
             self.writes[address] += 1;
             if let Some(tag) = self.tag {
                 self.id[address] = self.write.link.token(ports)[tag] as i32;

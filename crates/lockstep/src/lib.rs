@@ -26,7 +26,7 @@ pub mod draw;
 pub use case::{Case, Checked};
 pub use compare::{Comparison, Difference, status_ports};
 pub use device::{Device, ModelDevice, NetlistDevice, NoPlace, PortError, Triangles, model, netlist};
-pub use draw::{DrawError, render_on, render_rtl, render_rtl_passes, render_rtl_with};
+pub use draw::{DrawError, render_on, render_rtl, render_rtl_passes, render_rtl_with, tick_rtl};
 pub use interface::{Direction, Interface, Link, Memory, MemoryWrite, Port, StatusPort};
 pub use lockstep::{Agreement, Lockstep, LockstepError, lockstep};
 pub use rig::{MemorySetting, Rig, Setting};

@@ -6,7 +6,7 @@
 //!                        └────────┘ <──────────────────────┘  <──wr
 //! ```
 //! It does what the test bench in Verilog (`vectors/bench`) does, cycle for cycle. Nothing it drives depends on an output
-//! of the same cycle. A token that is offered stays until it is taken.
+//! of the same cycle. A token that is offered stays until it is taken. One that a link takes word by word begins anew behind a reset.
 
 mod memory;
 
@@ -22,7 +22,7 @@ use rand_pcg::Pcg64Mcg;
 /// How the rig behaves.
 #[derive(Clone, Debug)]
 pub struct Setting {
-    /// Tokens of the first link in; those of the memories come from the rig.
+    /// Tokens of the first link in, whole; those of the memories come from the rig.
     pub tokens: Vec<Token>,
     /// Values of the constants, in the interface's order.
     pub constants: Vec<u128>,
@@ -62,6 +62,8 @@ pub struct Rig<'a> {
     source: Box<dyn Iterator<Item = Token> + 'a>,
     /// The token that is offered, or will be.
     next: Option<Token>,
+    /// Words taken of it, where it is sent word by word.
+    place: usize,
     /// Tokens taken so far.
     sent: u32,
     /// The triangle of each token; empty where a token is a triangle, or its number will do.
@@ -98,6 +100,7 @@ impl<'a> Rig<'a> {
         Rig {
             next: source.next(),
             source: Box::new(source),
+            place: 0,
             sent: 0,
             triangles: Vec::new(),
             links: interface.links.clone(),
@@ -156,6 +159,11 @@ impl<'a> Rig<'a> {
             ports.set(link.valid, token.is_some());
             ports.set_triangle(place, token.and(served.is_none().then_some(triangle)));
             match (token, &mut self.noise) {
+                (Some(token), noise) if !link.words.is_empty() => {
+                    let ports = ports.range_mut(&link.range());
+                    ports.copy_from_slice(&link.word(token, self.place));
+                    noise.iter_mut().for_each(|noise| disturb(link, self.place, noise, ports));
+                }
                 (Some(token), _) => ports.range_mut(&link.range()).copy_from_slice(token),
                 (None, None) => ports.range_mut(&link.range()).fill(0),
                 (None, Some(noise)) => {
@@ -180,6 +188,7 @@ impl<'a> Rig<'a> {
         self.cycle += 1;
         if ports.rst {
             self.held.fill(false);
+            self.place = 0; // the device has forgotten the words of a token that was not whole
             self.memories.iter_mut().for_each(Served::reset);
             return false;
         }
@@ -191,14 +200,29 @@ impl<'a> Rig<'a> {
             let fed =
                 link.direction == Direction::In && self.memories.iter().all(|memory| memory.data() != place);
             if fires && fed {
-                self.sent += 1;
-                self.next = self.source.next();
+                self.place += 1;
+                if self.place >= link.words.len() {
+                    self.place = 0;
+                    self.sent += 1;
+                    self.next = self.source.next();
+                }
             }
         }
         for memory in &mut self.memories {
             memory.clock(&self.links, ports, self.cycle - 1);
         }
         moved
+    }
+}
+
+/// Noise in what is not seen of a word: the bits above it, and what stands beside all words but the last.
+fn disturb(link: &Link, place: usize, noise: &mut Pcg64Mcg, ports: &mut [u128]) {
+    let (width, whole) = (link.words[place].width(), link.fields[0].width());
+    let seen = u128::MAX >> (128 - width);
+    ports[0] = ports[0] & seen | bits(noise, whole) & !seen;
+    if place + 1 < link.words.len() {
+        let beside = ports[1..].iter_mut().zip(&link.fields[1..]);
+        beside.for_each(|(port, field)| *port = bits(noise, field.width()));
     }
 }
 

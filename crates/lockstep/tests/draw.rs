@@ -1,7 +1,7 @@
 //! The netlist draws what the model draws, in the same cycles where nothing makes it wait.
 
 use crate::common::machines::random_machine;
-use crate::common::triangles::{half_square, one_pixel, random_triangle};
+use crate::common::triangles::{half_square, one_pixel, random_primitive};
 use edgewalk_lockstep::{DrawError, StallKind, render_rtl, render_rtl_passes, render_rtl_with};
 use edgewalk_machine::{Machine, Plan, Record};
 use edgewalk_model::{DrawState, Pass, Shading, Stalls, longest_setup, render_passes};
@@ -47,7 +47,7 @@ fn the_picture_of_the_netlist_is_that_of_the_model() {
     let (mut fragments, mut machines, mut blend, mut shadow, mut shade, mut waited) = (0, [0; 3], 0, 0, 0, 0);
     for i in 0..36 {
         let plan = quick_machine(&mut rng);
-        let triangles: Vec<_> = (0..12).map(|_| random_triangle(&plan, &mut rng)).collect();
+        let triangles: Vec<_> = (0..12).map(|_| random_primitive(&plan, &mut rng)).collect();
         let state = DrawState {
             depth_func: [1, 3, 7][i % 3],
             depth_write: rng.random_bool(0.9),
@@ -135,15 +135,15 @@ fn triangles_wait_until_their_records_are_written() {
 fn a_watcher_sees_every_cycle_and_may_end_the_run() {
     let plan = Plan::default();
     let mut rng = Pcg64Mcg::seed_from_u64(6);
-    let triangles: Vec<_> = (0..5).map(|_| random_triangle(&plan, &mut rng)).collect();
+    let triangles: Vec<_> = (0..5).map(|_| random_primitive(&plan, &mut rng)).collect();
     let mut seen = 0;
     let watch = |simulator: &mut edgewalk_netlist::Simulator| {
         seen += 1;
         assert!(simulator.get("activity").is_ok());
         seen < 100
     };
-    let frame = render_rtl_with(&plan, triangles, DrawState::default(), StallKind::None, watch);
-    assert_eq!(frame.expect("its own triangles").counters.cycles, 100);
+    let counters = render_rtl_with(&plan, triangles, DrawState::default(), StallKind::None, watch);
+    assert_eq!(counters.expect("its own triangles").cycles, 100);
     assert_eq!(seen, 100);
 }
 

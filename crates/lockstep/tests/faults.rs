@@ -1,7 +1,7 @@
 //! What the comparison must not overlook: a device that differs in any one port, a rig that never makes it wait, a reset
 //! that forgets.
 
-use crate::common::triangles::{one_pixel, random_triangle};
+use crate::common::triangles::{one_pixel, random_primitive};
 use edgewalk_lockstep::{
     Case, Device, Interface, LockstepError, ModelDevice, PortId, PortValues, Triangles, Unit, model,
 };
@@ -54,7 +54,7 @@ fn small() -> Plan {
 
 fn case(plan: &Plan) -> Case {
     let (port, mut rng) = (Triangles::new(plan), Pcg64Mcg::seed_from_u64(8));
-    let tokens = (0..12).map(|k| port.pack(&random_triangle(plan, &mut rng), k)).collect();
+    let tokens = (0..12).map(|k| port.pack(&random_primitive(plan, &mut rng), k)).collect();
     let mut case = Case { tokens, seed: 1, ..Case::new(plan, Unit::MACHINE) };
     case.unwilling = ["tri", "rd", "data", "wr"].map(|link| (link.to_owned(), 90)).into_iter().collect();
     case

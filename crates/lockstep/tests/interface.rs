@@ -4,7 +4,7 @@
 use crate::common;
 use crate::common::machines::random_machine;
 use edgewalk_lockstep::{Interface, NetlistDevice, NoPlace, PortError, Triangles, Unit, model, netlist};
-use edgewalk_machine::{Field, Plan};
+use edgewalk_machine::{Field, Plan, Role};
 use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64Mcg;
 
@@ -93,10 +93,10 @@ fn a_port_of_another_width_is_refused() {
 #[test]
 fn triangles_pass_the_port_and_come_back() {
     let mut rng = Pcg64Mcg::seed_from_u64(4);
-    let mut checked = 0;
+    let (mut checked, mut lines) = (0, 0);
     for _ in 0..1000 {
         let plan = random_machine(&mut rng);
-        let triangle = common::triangles::random_triangle(&plan, &mut rng);
+        let triangle = common::triangles::random_primitive(&plan, &mut rng);
         let tag = rng.random::<u32>().checked_shr(32 - plan.tag_bits).unwrap_or(0);
         let port = Triangles::new(&plan);
         // A triangle has one k_t, its first vertex's.
@@ -106,8 +106,11 @@ fn triangles_pass_the_port_and_come_back() {
             let channels = &vertex.values()[..plan.channels().len()];
             plan.raw_vertex(vertex.x(), vertex.y(), &[channels, &[kt]].concat())
         });
-        assert_eq!(port.unpack(&port.pack(&triangle, tag)), (first_kt, tag));
+        let kept = plan.with_role(first_kt, Role::of(&triangle));
+        assert_eq!(port.unpack(&port.pack(&triangle, tag)), (kept, tag));
+        lines += usize::from(Role::of(&triangle) != Role::Triangle);
         checked += 1;
     }
-    println!("{checked} triangles");
+    println!("{checked} triangles, {lines} of them lines");
+    assert!(lines > 20);
 }

@@ -10,6 +10,7 @@ mod kept;
 mod lights;
 mod memory;
 mod own_pass;
+mod sequenced;
 mod stalls;
 mod tables;
 mod units;

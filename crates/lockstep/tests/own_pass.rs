@@ -2,7 +2,7 @@
 
 use crate::common::machines::random_machine;
 use crate::common::tokens::random_tokens;
-use crate::common::triangles::random_triangle;
+use crate::common::triangles::random_primitive;
 use edgewalk_lockstep::{Case, NetlistDevice, StallKind, Triangles, Unit, model, netlist, render_rtl_passes};
 use edgewalk_machine::{Activity, Fill, Machine, OwnPass, Plan, PortVertex, Shadow, ShadowLight};
 use edgewalk_model::{Counters, DrawState, Frame, Pass, Shading, Stalls, longest_setup, render_passes};
@@ -68,7 +68,7 @@ fn map_and_picture_of_the_netlist_are_those_of_the_model() {
     for i in 0..30 {
         let plan = drawn(&mut rng);
         let list = passes(&plan, 5, &mut rng);
-        let triangles: Vec<_> = (0..30).map(|_| random_triangle(&plan, &mut rng)).collect();
+        let triangles: Vec<_> = (0..30).map(|_| random_primitive(&plan, &mut rng)).collect();
         let stalls = StallKind::ALL[i % 3];
         let model = render_passes(&plan, triangles.clone(), &list, &[], Stalls::NONE, &Shading::default())
             .expect("its own");

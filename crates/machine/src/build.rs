@@ -24,7 +24,8 @@ impl Machine {
         let channels: Vec<Channel> = depth.chain(units::memory::wants(self)).chain(others).collect();
         check(self, &channels)?;
         let kt_bits = if self.has_triangle_kt() { self.blend.kt_bits } else { 0 };
-        let port = PortStamp::of(self.guard_bits, self.subpixel_bits, &channels, kt_bits);
+        let port =
+            PortStamp::of(self.guard_bits, self.subpixel_bits, &channels, kt_bits, self.polygon.has_lines());
         let terms = terms(self);
         Ok(Plan { machine: self.clone(), channels, terms, widths: self.widths(), port })
     }

@@ -3,7 +3,7 @@
 use crate::channel::{Channel, MAX_CHANNELS};
 use crate::error::MachineError;
 use crate::keys::KEYS;
-use crate::machine::{Fill, Machine};
+use crate::machine::{EdgeKind, Fill, Machine, SetupKind};
 use crate::shade::ShadeColour;
 use crate::shadow::LIGHT_SPACE;
 use crate::term::{self, WORD_BITS as TERM_BITS};
@@ -18,6 +18,7 @@ pub const MAP_BITS: u32 = 32;
 /// that would do: the first rule that is broken.
 pub(crate) fn check(machine: &Machine, channels: &[Channel]) -> Result<(), MachineError> {
     screen(machine)?;
+    lines(machine)?;
     for channel in channels {
         formats(machine, channel)?;
     }
@@ -76,6 +77,9 @@ pub(crate) fn check(machine: &Machine, channels: &[Channel]) -> Result<(), Machi
             own.saturating_sub(channels.len() - MAX_CHANNELS).to_string(),
         ));
     }
+    if machine.setup_kind == SetupKind::Sequenced {
+        sequenced(machine)?;
+    }
     if machine.adders as usize > channels.len() {
         return Err(MachineError::rule(
             machine,
@@ -106,6 +110,23 @@ fn screen(machine: &Machine) -> Result<(), MachineError> {
         ));
     }
     Ok(())
+}
+
+/// Lines want half a pixel, a rule that counts centres, and nobody who walks down only.
+fn lines(machine: &Machine) -> Result<(), MachineError> {
+    let refusal =
+        |reason: &str| Err(MachineError::rule(machine, "polygon.lines", reason.to_owned(), "no".to_owned()));
+    if !machine.polygon.has_lines() {
+        Ok(())
+    } else if machine.fill == Fill::Textbook {
+        refusal("a line wants edge.fill = exact, which counts the centres of pixels")
+    } else if machine.subpixel_bits == 0 {
+        refusal("lines need screen.subpixel_bits of 1 or more, as one begins half a pixel beside its end")
+    } else if machine.shade.is_there() {
+        refusal("TERM walks down only, and a line may go up; lines need shade.kind = none")
+    } else {
+        Ok(())
+    }
 }
 
 /// A screen with sides of so many pixels, or a map that the machine draws.
@@ -216,6 +237,24 @@ fn positional(machine: &Machine) -> Result<(), MachineError> {
     if machine.shade.bumps() {
         let reason = "a relief wants shade.light = directional".to_owned();
         return Err(MachineError::rule(machine, "texture.bump", reason, "no".to_owned()));
+    }
+    Ok(())
+}
+
+/// What the program of SETUP serves.
+fn sequenced(machine: &Machine) -> Result<(), MachineError> {
+    let refused = |reason: &str| {
+        let reason = format!("its program has no steps for {reason}");
+        Err(MachineError::rule(machine, "setup.kind", reason, "parallel".to_owned()))
+    };
+    if machine.fill == Fill::Textbook {
+        return refused("edge.fill = textbook, only for exact");
+    }
+    if machine.edge_kind == EdgeKind::Slope {
+        return refused("edge.kind = slope, only for exact");
+    }
+    if machine.polygon.has_lines() {
+        return refused("polygon.lines = yes, only for no");
     }
     Ok(())
 }

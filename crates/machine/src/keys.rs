@@ -2,10 +2,11 @@
 //! messages, hashes and random machines.
 
 use crate::key::Key;
-use crate::{blend, dither, extra, machine, shade, shadow};
+use crate::{blend, dither, extra, machine, polygon, shade, shadow};
 
-const PARTS: [&[Key]; 9] = [
+const PARTS: [&[Key]; 10] = [
     machine::FRONT,
+    polygon::KEYS,
     extra::KEYS,
     machine::PIXEL,
     shade::KEYS,

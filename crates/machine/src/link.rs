@@ -21,11 +21,14 @@ pub struct Link {
     pub fields: Vec<Field>,
     /// When the taker's ready means something.
     pub ready: Ready,
+    /// Not empty: a token comes as so many words, one after the other in the first field. The low bits of a word are the value, what
+    /// stands above them is not seen. The other fields count with the last word. A token moves with its last word.
+    pub words: Vec<Field>,
 }
 
 impl Link {
     pub(crate) fn new(name: &'static str, fields: Vec<Field>) -> Link {
-        Link { name, fields, ready: Ready::Always }
+        Link { name, fields, ready: Ready::Always, words: Vec::new() }
     }
 
     /// Bits of a packed token.

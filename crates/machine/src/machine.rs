@@ -10,6 +10,7 @@ use crate::dither::Dither;
 use crate::extra::ExtraChannel;
 use crate::key::Domain::{OneOf, Range};
 use crate::key::{Domain, Key, number, word};
+use crate::polygon::Polygon;
 use crate::shade::Shade;
 use crate::shadow::Shadow;
 
@@ -30,6 +31,15 @@ pub enum EdgeKind {
     Exact,
     /// Fixed-point slope with `Machine::edge_fraction` bits, rounded to nearest (bound 5).
     Slope,
+}
+
+/// How SETUP does its work.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum SetupKind {
+    /// A triangle comes at once; hardware of its own for each number.
+    Parallel,
+    /// A triangle comes word by word; a program of words, executed by the lanes.
+    Sequenced,
 }
 
 /// What DEPTH does when a fragment's pixel is still in flight.
@@ -72,6 +82,10 @@ pub struct Machine {
     pub adders: u32,
     /// Segments D of each adder: 1, 2 or 4.
     pub segments: u32,
+    /// How SETUP does its work.
+    pub setup_kind: SetupKind,
+    /// Lines beside triangles.
+    pub polygon: Polygon,
     /// Setup lanes, each with one pair of quotient and remainder: 1, 2 or 4.
     pub lanes: u32,
     /// Depth of the span FIFO, spans.
@@ -133,6 +147,8 @@ impl Default for Machine {
             extra: 0,
             adders: 4,
             segments: 1,
+            setup_kind: SetupKind::Parallel,
+            polygon: Polygon::default(),
             lanes: 4,
             span_fifo: 2,
             inflight: 4,
@@ -158,6 +174,15 @@ pub(crate) const FRONT: &[Key] = &[
         guard_bits
     ),
     number!("screen.subpixel_bits", Range(0, 8), "fraction bits of vertex coordinates", subpixel_bits),
+    Key {
+        absent: Some(SetupKind::Parallel as u32),
+        ..word!(
+            "setup.kind",
+            SetupKind { "parallel" => Parallel, "sequenced" => Sequenced },
+            "SETUP: parallel (fast, a triangle comes at once) or sequenced (small, a program; a triangle comes word by word)",
+            setup_kind
+        )
+    },
     number!(
         "setup.lanes",
         OneOf(&[1, 2, 4]),

@@ -1,7 +1,7 @@
 //! The checked machine: what units, drawing and tools take.
 
 use crate::channel::Channel;
-use crate::machine::Machine;
+use crate::machine::{Machine, SetupKind};
 use crate::shadow::LIGHT_SPACE;
 use crate::stamp::PortStamp;
 use crate::term::Term;
@@ -69,6 +69,19 @@ impl Plan {
     #[must_use]
     pub fn widths(&self) -> Widths {
         self.widths
+    }
+
+    /// SETUP takes a triangle word by word, and does its work by a program.
+    #[must_use]
+    pub fn is_sequenced(&self) -> bool {
+        self.setup_kind == SetupKind::Sequenced
+    }
+
+    /// Words of a triangle at the word port of a sequenced SETUP.
+    #[must_use]
+    pub fn triangle_words(&self) -> u32 {
+        let vertex = 2 + self.channels.len() as u32;
+        3 * vertex + u32::from(self.has_triangle_kt())
     }
 
     /// Clocks a pixel inside a span, T = ceil(N/A).

@@ -8,10 +8,11 @@ pub(crate) struct PortStamp(u32);
 
 impl PortStamp {
     /// Stands for the numbers of bits that decide how a vertex is read (FNV-1a over them); `kt`: those of a
-    /// triangle's own k_t, 0 if it has none.
-    pub fn of(guard_bits: u32, subpixel_bits: u32, channels: &[Channel], kt: u32) -> PortStamp {
+    /// triangle's own k_t, 0 if it has none; `lines`: the port takes lines.
+    pub fn of(guard_bits: u32, subpixel_bits: u32, channels: &[Channel], kt: u32, lines: bool) -> PortStamp {
         let formats = channels.iter().flat_map(|c| [c.kind as u32, c.bits, c.vertex_fraction]);
-        let numbers = [guard_bits, subpixel_bits].into_iter().chain(formats).chain((kt > 0).then_some(kt));
+        let own = (kt > 0).then_some(kt).into_iter().chain(lines.then_some(u32::MAX));
+        let numbers = [guard_bits, subpixel_bits].into_iter().chain(formats).chain(own);
         PortStamp(numbers.fold(0x811c_9dc5, |hash, number| (hash ^ number).wrapping_mul(0x0100_0193)))
     }
 }

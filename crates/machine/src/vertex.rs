@@ -2,6 +2,7 @@
 
 use crate::channel::{Channel, Kind, MAX_CHANNELS};
 use crate::plan::Plan;
+use crate::role::Role;
 use crate::stamp::PortStamp;
 
 /// A vertex at the port of one machine: snapped and quantised. Only a [`Plan`] makes one.
@@ -10,7 +11,9 @@ pub struct PortVertex {
     x: i32,
     y: i32,
     values: [i64; MAX_CHANNELS],
-    kt: u32,
+    kt: u16,
+    /// Of the second vertex: that of all three.
+    pub(crate) role: Role,
     stamp: PortStamp,
 }
 
@@ -27,6 +30,11 @@ impl PortVertex {
         self.y
     }
 
+    /// The same at another place.
+    pub(crate) fn at(self, x: i32, y: i32) -> PortVertex {
+        PortVertex { x, y, ..self }
+    }
+
     /// The channels' values in their order, `e` fraction bits below the output's LSB; behind the last channel
     /// 0.
     #[must_use]
@@ -38,7 +46,7 @@ impl PortVertex {
     /// of its first vertex. Else 0.
     #[must_use]
     pub fn kt(&self) -> u32 {
-        self.kt
+        self.kt.into()
     }
 }
 
@@ -148,13 +156,13 @@ impl Plan {
         let kt = match values.get(channels) {
             None => 0,
             Some(value) if (0.0..=1.0).contains(value) => {
-                (value * f64::from(1u32 << self.blend.kt_bits)).round_ties_even() as u32
+                (value * f64::from(1u32 << self.blend.kt_bits)).round_ties_even() as u16
             }
             Some(value) => {
                 return Err(VertexError::Channel { channel: "kt", value: *value, low: 0.0, high: 1.0 });
             }
         };
-        Ok(PortVertex { x, y, values: port, kt, stamp: self.port })
+        Ok(PortVertex { x, y, values: port, kt, role: Role::Triangle, stamp: self.port })
     }
 
     /// A vertex of these numbers as the port has them: x and y with `s`, values with `e` fraction bits,
@@ -167,8 +175,8 @@ impl Plan {
         for (port, value) in port.iter_mut().zip(values).take(channels) {
             *port = *value;
         }
-        let kt = if self.has_triangle_kt() { values.get(channels).map_or(0, |kt| *kt as u32) } else { 0 };
-        PortVertex { x, y, values: port, kt, stamp: self.port }
+        let kt = if self.has_triangle_kt() { values.get(channels).map_or(0, |kt| *kt as u16) } else { 0 };
+        PortVertex { x, y, values: port, kt, role: Role::Triangle, stamp: self.port }
     }
 
     /// Takes the triangle with this number if its vertices were made for this machine's port.

@@ -19,6 +19,8 @@ pub struct Widths {
     pub x: u32,
     /// Line of the screen, or of the map that the machine draws: yb.
     pub y: u32,
+    /// Line of a triangle on its way to SPAN: yb, and with lines max(xb, yb), as a flat one has its columns there.
+    pub line: u32,
     /// Address of a pixel, y·2^xb + x, or of a texel that the machine draws, y·2^SB + x.
     pub address: u32,
 }
@@ -32,6 +34,7 @@ impl Machine {
         let index = |count: u32| count.next_power_of_two().ilog2().max(1);
         let (x, y) = (index(self.width), index(self.height));
         let side = if self.shadow.draws_map() { self.shadow.side_bits() } else { 0 };
+        let y = y.max(side);
         Widths {
             vertex: self.subpixel_bits + self.guard_bits + 1,
             center_fraction,
@@ -39,8 +42,9 @@ impl Machine {
             difference: center + 1,
             column: self.guard_bits + 2,
             x,
-            y: y.max(side),
-            address: x.max(side) + y.max(side),
+            y,
+            line: if self.polygon.has_lines() { x.max(y) } else { y },
+            address: x.max(side) + y,
         }
     }
 }

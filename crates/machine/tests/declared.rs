@@ -275,3 +275,34 @@ fn slopes_stand_below_the_colour_of_a_texel() {
         assert!(error.contains(key) && error.contains("65 bits") && error.contains(most), "{error}");
     }
 }
+
+#[test]
+fn sequenced_setup_takes_a_triangle_word_by_word() {
+    let keys = [("setup.kind", "sequenced"), ("blend.kind", "constant"), ("memory.tag_bits", "5")];
+    let plan = plan(&keys);
+    let link = (unit("setup").ports)(&plan).takes.expect("a link");
+    let words: Vec<&str> = link.words.iter().map(|word| word.name.as_str()).collect();
+    let vertices = ["x0 y0 z0 r0 g0 b0", "x1 y1 z1 r1 g1 b1", "x2 y2 z2 r2 g2 b2", "kt"].join(" ");
+    assert_eq!(words, vertices.split(' ').collect::<Vec<_>>());
+    assert_eq!(plan.triangle_words() as usize, words.len());
+    // z has 24 + 4 bits, x 14 + 8, a colour 8 + 4, kt 9.
+    let ports: Vec<(&str, u32)> = link.fields.iter().map(|port| (port.name.as_str(), port.width())).collect();
+    assert_eq!((link.name, ports), ("in", vec![("data", 28), ("tag", 5)]));
+}
+
+#[test]
+fn sequenced_setup_refuses_what_its_program_lacks() {
+    let cases = [
+        ("edge.fill", "textbook", "exact", "0"),
+        ("edge.kind", "slope", "exact", "0"),
+        ("polygon.lines", "yes", "no", "8"),
+    ];
+    for (key, value, permitted, subpixels) in cases {
+        let keys = [("setup.kind", "sequenced"), ("screen.subpixel_bits", subpixels), (key, value)];
+        let error = machine(&keys).plan().expect_err(key).to_string();
+        let wanted = format!(
+            "setup.kind = sequenced cannot be built: its program has no steps for {key} = {value}, only for {permitted}; try setup.kind = parallel"
+        );
+        assert_eq!(error, wanted);
+    }
+}

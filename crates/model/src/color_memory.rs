@@ -78,6 +78,7 @@ impl<const C: usize> ColorMemory<C> {
     }
 
     /// Clock edge: the read that fired, whether the word was taken, the write that fired.
+    #[inline(always)]
     pub fn step(&mut self, read: Option<u32>, taken: bool, write: Option<&ColorWrite<C>>) {
         let read = read.map(|addr| (addr, self.rgb[addr as usize]));
         self.served.step(read, taken, write.map(|write| write.addr));

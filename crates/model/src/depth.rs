@@ -172,8 +172,8 @@ impl<const C: usize> Depth<C> {
         }
     }
 
-    /// Compares the oldest fragment; if it passes it is written.
-    #[inline]
+    /// Compares the oldest fragment; if it passes it is written. A part of every cycle that draws, as the clock edge is.
+    #[inline(always)]
     fn compare(&mut self, data: u32, inputs: &DepthInputs, events: &mut Events) {
         let head = self.rmw.retire(data);
         let Retired { old, forwarded, .. } = head;

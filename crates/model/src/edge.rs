@@ -146,6 +146,8 @@ impl<const C: usize> Edge<C> {
             major: self.major.c,
             minor: self.minor.c,
             major_right: prim.major_right,
+            thin: prim.thin,
+            flat: prim.flat,
             values: prim.start[if self.textbook { part } else { 0 }],
             fresh: true,
             fence: true,

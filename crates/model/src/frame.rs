@@ -2,8 +2,9 @@
 
 use crate::Events;
 use crate::counters::Counters;
+use crate::io::Cycle;
 use crate::machine::Model;
-use crate::run::{Cycle, Rig};
+use crate::run::Rig;
 use crate::tokens::{Source, for_channels, output};
 use crate::waits::Waits;
 use edgewalk_machine::{

@@ -10,13 +10,29 @@
 //! [`Rig`] adds the memory, [`render`] draws. No I/O; nothing
 //! here fails on a planned machine but vertices of another.
 
-pub mod counters;
+// What moves: tokens with their names, and what is beside them.
 pub mod named;
-pub mod ports;
-mod rmw;
+pub mod tokens;
+pub mod lit;
+// Parts of units.
+pub mod fifo;
 mod fetch;
 mod stages;
-pub mod lit;
+mod rmw;
+// What a recording sees.
+pub mod view;
+// The memories of units, and when they make the machine wait.
+mod waits;
+mod served;
+pub mod word_memory;
+// The units, each by its ports.
+pub mod ports;
+pub mod setup;
+pub mod counters;
+pub mod edge;
+pub mod span;
+pub mod term;
+pub mod pixel;
 pub mod texel;
 pub mod bump;
 pub mod normal;
@@ -27,39 +43,36 @@ pub mod shadow;
 pub mod dither;
 pub mod depth;
 pub mod blend;
-pub mod edge;
-pub mod fifo;
+pub mod alone;
+// The machine.
+pub mod io;
 pub mod stage;
+pub mod wires;
 pub mod machine;
+// The machine with its memories.
 mod prefetch;
-mod waits;
-mod served;
 pub mod memory;
-pub mod word_memory;
 pub mod color_memory;
 pub mod memories;
-pub mod pixel;
 pub mod run;
 pub mod frame;
 pub mod fast;
-pub mod setup;
-pub mod span;
-pub mod term;
-pub mod tokens;
-pub mod view;
 
+pub use blend::BlendInputs;
 pub use color_memory::ColorMemory;
 pub use counters::Counters;
 pub use edgewalk_machine::{Activity, DrawState, Events, Pass, Shading, first_of_picture};
 pub use frame::{Drawn, Frame, Sample, render, render_passes, render_passes_with, render_with};
+pub use io::{Cycle, Inputs, Outputs};
 pub use lit::{Cosines, Given, Lit};
-pub use machine::{BlendInputs, Inputs, Model, Outputs, ShadowInputs};
+pub use machine::Model;
 pub use memories::Memories;
-pub use memory::{Memory, Stalls};
+pub use memory::Memory;
 pub use prefetch::prefetch;
-pub use run::{Cycle, Rig, tick};
+pub use run::{Rig, tick};
 pub use setup::{Culled, SetupClocks, cull, longest_setup, setup_clocks};
+pub use shadow::ShadowInputs;
 pub use tokens::Write;
 pub use view::View;
-pub use waits::{Dram, Fixed, KINDS as WAITS, Waits, WaitsError};
+pub use waits::{Dram, Fixed, KINDS as WAITS, Stalls, Waits, WaitsError};
 pub use word_memory::{Ask, WordIn, WordMemory};

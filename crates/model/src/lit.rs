@@ -1,9 +1,11 @@
 //! A fragment on its way from PIXEL to DEPTH, and what the shading units need beside it.
 
-use crate::named::{Named, Number, Place, Sourced, named};
-use crate::term::MAX_TERMS;
-use crate::tokens::{Fragment, Source};
+use crate::named::{Named, Number, Place, named};
+use crate::tokens::{Fragment, Source, Sourced};
 use edgewalk_machine::Plan;
+
+/// Most terms of a machine.
+pub const MAX_TERMS: usize = 18;
 
 /// Values beside a fragment: PIXEL gives the outputs of the terms, BUMP, NORMAL and LAMP put cosines in their place.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

@@ -12,73 +12,25 @@
 //!
 //! Rules: `docs/machine.md`, sections 8 to 17.
 
+mod links;
 mod view;
-pub mod wires;
 pub mod ports;
 
 use crate::Events;
-use crate::blend::Blend;
-pub use crate::blend::{BlendInputs, BlendOutputs};
+use crate::blend::{Blend, BlendOutputs};
 use crate::counters::{Counters, one_more};
 use crate::depth::Depth;
 use crate::edge::Edge;
+use crate::io::{Inputs, Outputs};
 use crate::pixel::Pixel;
 use crate::setup::Setup;
-pub use crate::shadow::ShadowInputs;
 use crate::span::Span;
-use crate::stage::{self, Stage};
+use crate::stage::{self, Made, Stage};
 use crate::term::{Term, Walked};
-use crate::tokens::{FEW, Fragment, Line, Write};
+use crate::tokens::{FEW, Fragment, Line};
+use crate::wires::{Offers, Wires};
 use crate::word_memory::{Ask, MEMORIES, WordIn};
-use edgewalk_machine::{Activity, Plan, PortVertex};
-use wires::Wires;
-
-/// Input ports of a cycle; a valid and its data are an `Option`.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct Inputs<'a> {
-    /// Synchronous reset.
-    pub rst: bool,
-    /// A triangle and its tag.
-    pub tri: Option<(&'a [PortVertex; 3], u32)>,
-    /// Compare function, constant while the machine is busy: 0 never, 1 less, 2 equal, 3 lequal, 4 greater, 5 notequal,
-    /// 6 gequal, 7 always.
-    pub depth_func: u8,
-    /// Fragments that pass store their depth; constant while the machine is busy.
-    pub depth_write: bool,
-    /// The memory takes a read.
-    pub rd_ready: bool,
-    /// The depth of the oldest read.
-    pub data: Option<u64>,
-    /// The memory takes a write.
-    pub wr_ready: bool,
-    /// The memories that the host alone writes, in the order of [`Plan::word_memories`].
-    pub words: &'a [WordIn],
-    /// What only machines with SHADOW have.
-    pub shadow: ShadowInputs,
-    /// What only machines with BLEND have.
-    pub blend: BlendInputs,
-}
-
-/// Output ports of the same cycle. A link fires if it is valid here and ready there.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Outputs<const C: usize> {
-    /// A triangle is taken, if there is one.
-    pub tri_ready: bool,
-    /// Address of a depth read.
-    pub rd: Option<u32>,
-    /// The depth is taken, if it is there.
-    pub data_ready: bool,
-    /// A write; with BLEND of a depth.
-    pub wr: Option<Write<C>>,
-    /// What is asked of the memories that the host alone writes, in the order of [`Plan::word_memories`].
-    pub words: [Ask; MEMORIES],
-    /// What only machines with BLEND have.
-    pub blend: BlendOutputs<C>,
-    /// What the cycle was spent on.
-    pub activity: Activity,
-    /// Nothing to do: `activity` is 0.
-    pub idle: bool,
-}
+use edgewalk_machine::{Activity, Plan};
 
 /// State of the whole machine, `C` words a token; [`for_channels`](crate::for_channels!) finds the number that serves a
 /// plan.
@@ -94,6 +46,7 @@ pub struct Model<const C: usize> {
     /// Spans to fragments.
     pub pixel: Pixel<C>,
     pipe: Vec<Stage<C>>,
+    offers: Offers<C>,
     /// Fragments to writes.
     pub depth: Depth<C>,
     blend: Option<Blend<C>>,
@@ -111,18 +64,22 @@ impl<const C: usize> Model<C> {
     /// A machine after reset.
     #[must_use]
     pub fn new(plan: &Plan) -> Self {
-        Model {
+        let pipe = stage::pipe(plan);
+        let mut model = Model {
             setup: Setup::new(plan),
             edge: Edge::new(plan),
             span: Span::new(plan),
             term: plan.shade.is_there().then(|| Term::new(plan)),
             pixel: Pixel::new(plan),
-            pipe: stage::pipe(plan),
+            offers: Offers::default(),
+            pipe,
             depth: Depth::new(plan),
             blend: plan.blend.is_there().then(|| Blend::new(plan)),
             counters: Counters::default(),
             events: Events::default(),
-        }
+        };
+        model.offers = model.no_offers();
+        model
     }
 
     /// Performance counters since construction.
@@ -149,6 +106,18 @@ impl<const C: usize> Model<C> {
     #[must_use]
     pub fn pipe(&self) -> &[Stage<C>] {
         if C > FEW { &self.pipe } else { &[] }
+    }
+
+    /// Room for what units offer.
+    fn no_offers(&self) -> Offers<C> {
+        Offers { made: vec![Made::default(); self.pipe.len()], asks: vec![Ask::default(); MEMORIES] }
+    }
+
+    /// What the cycle before asked of the memories that the host alone writes, in the order of [`Plan::word_memories`].
+    #[inline(always)]
+    #[must_use]
+    pub fn asks(&self) -> &[Ask] {
+        &self.offers.asks
     }
 
     /// Fragments that passed to colours, if the machine has it.
@@ -214,11 +183,15 @@ impl<const C: usize> Model<C> {
         let tri_ready = self.setup.tri_ready();
         let activity = if tri_ready { Activity::Idle } else { Activity::Setup };
         self.counters.cycle(activity);
+        if C > FEW {
+            self.offers.asks.fill(Ask::default());
+        }
         let prim_ready = self.edge.prim_ready(false);
         self.edge.step(self.setup.prim(), false, false, &mut self.events);
         let light_pass = C > FEW && inputs.shadow.light_pass;
+        let takes = self.setup.takes(inputs.tri.is_some());
         self.setup.step(inputs.tri, prim_ready, light_pass, &mut self.events);
-        if inputs.tri.is_some() && tri_ready {
+        if takes {
             self.taken();
         }
         Outputs { tri_ready, activity, idle: tri_ready, ..Outputs::default() }
@@ -226,8 +199,9 @@ impl<const C: usize> Model<C> {
 
     #[inline(always)]
     fn cycle_of_all(&mut self, inputs: &Inputs, tell: impl FnOnce(&Line<C>)) -> Outputs<C> {
-        let wires = self.wires(inputs);
-        let outputs = self.outputs(inputs, &wires);
+        let mut offers = if C > FEW { std::mem::take(&mut self.offers) } else { Offers::default() };
+        let wires = self.wires(inputs, &mut offers);
+        let outputs = self.outputs(inputs, &wires, &offers.made);
         self.count(inputs, &outputs);
         let light_pass = C > FEW && inputs.shadow.light_pass;
         // From the back on, so that each unit sees the one before as it was.
@@ -236,13 +210,17 @@ impl<const C: usize> Model<C> {
         {
             blend.step(self.depth.pass(), &inputs.blend, &mut self.events);
         }
-        self.step_depth(inputs, &wires);
+        self.step_depth(inputs, &wires, &offers.made);
         for place in (0..self.pipe().len()).rev() {
-            self.step_stage(&wires, place, inputs);
+            self.step_stage(&wires, &offers.made, place, inputs);
+        }
+        if C > FEW {
+            self.offers = offers;
         }
         self.step_pixel(inputs, &wires, light_pass);
+        let takes = self.setup.takes(inputs.tri.is_some());
         self.step_lines(inputs, wires.span_ready(), light_pass, tell);
-        if inputs.tri.is_some() && outputs.tri_ready {
+        if takes {
             self.taken();
         }
         outputs
@@ -250,30 +228,22 @@ impl<const C: usize> Model<C> {
 
     /// The output ports.
     #[inline(always)]
-    fn outputs(&self, inputs: &Inputs, wires: &Wires<C>) -> Outputs<C> {
-        let (pipe, pass) = (self.pipe(), self.depth.pass());
-        let mut words = [Ask::default(); MEMORIES];
-        if let Some(term) = self.term() {
-            words[0] = Ask { addr: term.read(self.edge.record()), take: term.tdata_ready() };
-        }
-        for (place, stage) in pipe.iter().enumerate() {
-            if let Some((memory, ask)) = stage.asks(&self.links(wires, place), inputs) {
-                words[memory] = ask;
-            }
-        }
-        let seen = self.given(wires, pipe.len());
-        let activity = self.activity(wires);
+    fn outputs(&self, inputs: &Inputs, wires: &Wires, made: &[Made<C>]) -> Outputs<C> {
+        let pass = self.depth.pass();
+        let activity = self.activity(wires, made);
         Outputs {
             tri_ready: self.setup.tri_ready(),
-            rd: seen.filter(|_| wires.block.is_none()).map(|given| given.frag.addr),
+            rd: wires.rd,
             data_ready: self.depth.data_ready(inputs.wr_ready, wires.pass_ready),
             wr: self.depth.write(),
-            words,
-            blend: self.blend().map_or_else(BlendOutputs::default, |blend| BlendOutputs {
-                crd: blend.read(pass, inputs.blend.add),
-                cdata_ready: blend.cdata_ready(inputs.blend.cwr_ready),
-                cwr: blend.write(),
-            }),
+            blend: match self.blend() {
+                None => BlendOutputs::default(),
+                Some(blend) => BlendOutputs {
+                    crd: blend.read(pass, inputs.blend.add),
+                    cdata_ready: blend.cdata_ready(inputs.blend.cwr_ready),
+                    cwr: blend.write(),
+                },
+            },
             activity,
             idle: activity == Activity::Idle,
         }
@@ -294,24 +264,24 @@ impl<const C: usize> Model<C> {
             one_more(&mut self.counters.writes);
         }
         self.counters.hold(self.span.queued(), self.depth.inflight());
-        if inputs.tri.is_some() && outputs.tri_ready {
+        if self.setup.takes(inputs.tri.is_some()) {
             self.events.machine.setup_overlap += u64::from(self.pixel.active());
         }
     }
 
     #[inline(always)]
-    fn step_depth(&mut self, inputs: &Inputs, wires: &Wires<C>) {
+    fn step_depth(&mut self, inputs: &Inputs, wires: &Wires, made: &[Made<C>]) {
         let Model { pixel, pipe, depth, events, .. } = self;
         let seen = match pipe.last().filter(|_| C > FEW) {
             None => pixel.given(),
-            Some(stage) => stage.gives(wires.made(pipe.len() - 1)),
+            Some(stage) => stage.gives(&made[pipe.len() - 1]),
         };
         depth.step(seen.map(|given| given.frag), wires.block, &wires.depth_inputs(inputs), events);
     }
 
     /// PIXEL and TERM.
     #[inline(always)]
-    fn step_pixel(&mut self, inputs: &Inputs, wires: &Wires<C>, light_pass: bool) {
+    fn step_pixel(&mut self, inputs: &Inputs, wires: &Wires, light_pass: bool) {
         let Model { edge, span, term, pixel, counters, events, .. } = self;
         let (span, span_ready) = (span.span(), wires.span_ready());
         let walked = || term.as_ref().map_or_else(Walked::default, Term::walked);

@@ -6,13 +6,14 @@
 //! ```
 //! A machine that draws its own map has depths and colours twice: one page for the picture, one for the map.
 
+use crate::blend::BlendInputs;
 use crate::color_memory::ColorMemory;
-use crate::machine::{BlendInputs, Inputs, ShadowInputs};
+use crate::io::{Cycle, Inputs};
 use crate::memory::Memory;
-use crate::run::Cycle;
+use crate::shadow::ShadowInputs;
 use crate::tokens::{FEW, OutputWords};
 use crate::waits::Waits;
-use crate::word_memory::{WordIn, WordMemory};
+use crate::word_memory::{Ask, WordIn, WordMemory};
 use edgewalk_machine::{DrawState, Maps, Plan, PortVertex, Record, Shading, Step};
 
 /// The memories, and the state that a pass draws with.
@@ -129,6 +130,18 @@ impl<const C: usize> Memories<C> {
         self.color.as_ref().map_or(stored, |color| color.pixel(addr, stored[0]))
     }
 
+    /// What is stored at an address of the light's map, or of the picture; without a map of the machine's own there is only the picture.
+    #[must_use]
+    pub fn stored(&self, of_map: bool, addr: u32) -> OutputWords<C> {
+        match &self.other {
+            Some(other) if of_map != self.state.light_pass => {
+                let stored = other.depth.pixel(addr);
+                other.color.as_ref().map_or(stored, |color| color.pixel(addr, stored[0]))
+            }
+            _ => self.pixel(addr),
+        }
+    }
+
     /// What the next triangles are drawn with; the machine is idle.
     pub fn set_state(&mut self, state: DrawState) {
         if let Some(other) = self.other.as_mut().filter(|_| state.light_pass != self.state.light_pass) {
@@ -166,12 +179,12 @@ impl<const C: usize> Memories<C> {
         }
     }
 
-    /// Clock edge behind a cycle of the machine.
+    /// Clock edge behind a cycle of the machine, which has asked the memories that the host alone writes for so much.
     #[inline(always)]
-    pub fn step(&mut self, cycle: &Cycle<C>) {
+    pub fn step(&mut self, cycle: &Cycle<C>, asks: &[Ask]) {
         let outputs = &cycle.outputs;
         if C > FEW {
-            let words = self.words.iter_mut().zip(&mut self.ports).zip(&outputs.words);
+            let words = self.words.iter_mut().zip(&mut self.ports).zip(asks);
             for (((_, memory), port), ask) in words {
                 memory.step(ask.addr.filter(|_| port.ready), ask.take && port.word.is_some());
                 *port = memory.port();

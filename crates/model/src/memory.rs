@@ -17,24 +17,6 @@ use crate::tokens::{FEW, MAX_CHANNELS, OutputWords, Write};
 use crate::waits::Waits;
 use edgewalk_machine::Plan;
 
-/// How often the memory makes the machine wait, in 256ths; all zero: never. The same seed stalls in the same cycles.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Stalls {
-    /// Seed of the pattern.
-    pub seed: u64,
-    /// `rd_ready` is low in so many of 256 cycles.
-    pub rd: u8,
-    /// So many of 256 reads take 1 to 8 cycles longer.
-    pub data: u8,
-    /// `wr_ready` is low in so many of 256 cycles.
-    pub wr: u8,
-}
-
-impl Stalls {
-    /// A memory that is always ready.
-    pub const NONE: Stalls = Stalls { seed: 0, rd: 0, data: 0, wr: 0 };
-}
-
 /// State of the memory.
 #[derive(Clone, Debug)]
 pub struct Memory<const C: usize> {

@@ -5,7 +5,6 @@
 //! ```
 //! The names stand beside the fields, in the text that declares the token.
 
-use crate::tokens::Source;
 use edgewalk_machine::{Channel, Plan, Term};
 
 /// A number inside a token.
@@ -93,12 +92,6 @@ pub trait Named: Copy {
 
     /// The number at a place that `find` has given.
     fn at(&mut self, place: Place) -> &mut dyn Number;
-}
-
-/// A token with the triangle that it comes from.
-pub trait Sourced: Named {
-    /// The triangle.
-    fn source(&mut self) -> &mut Source;
 }
 
 /// The channel or term that a name is for, with this text behind its own name.

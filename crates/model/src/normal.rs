@@ -16,10 +16,9 @@ mod view;
 
 use crate::Events;
 use crate::fetch::Fetch;
-use crate::lit::{Cosines, Given, Lit};
+use crate::lit::{Cosines, Given, Lit, MAX_TERMS};
 use crate::ports::{Pins, Ported, Shown};
 use crate::stages::Stages;
-use crate::term::MAX_TERMS;
 use crate::word_memory::Ask;
 use crate::word_memory::WordIn;
 use edgewalk_machine::Plan;

@@ -16,9 +16,9 @@
 mod view;
 
 use crate::Events;
-use crate::lit::{Cosines, Given};
+use crate::lit::{Cosines, Given, MAX_TERMS};
 use crate::ports::{Pins, Ported, Shown};
-use crate::term::{MAX_TERMS, Walked, WalkedSpan};
+use crate::term::{Walked, WalkedSpan};
 use crate::tokens::{FEW, Fragment, OutputWords, Source, Span, Words, per_channel};
 use edgewalk_machine::{Plan, Shadow};
 

@@ -6,9 +6,10 @@
 //! ```
 
 use crate::counters::Counters;
-use crate::machine::{Inputs, Model, Outputs};
+use crate::io::{Cycle, Inputs};
+use crate::machine::Model;
 use crate::memories::Memories;
-use crate::tokens::{ColorWrite, FEW, Write, for_channels};
+use crate::tokens::for_channels;
 use crate::waits::Waits;
 use edgewalk_machine::{DrawState, Events, Plan, PortVertex, Shading};
 use std::convert::Infallible;
@@ -40,37 +41,6 @@ pub struct Rig<const C: usize> {
     pub memories: Memories<C>,
 }
 
-/// What happened in a cycle of a [`Rig`].
-#[derive(Clone, Copy, Debug)]
-pub struct Cycle<const C: usize> {
-    /// The ports of the machine.
-    pub outputs: Outputs<C>,
-    /// A triangle was taken.
-    pub triangle: bool,
-    /// The address whose read fired; [`Model::last_read`] is its fragment.
-    pub read: Option<u32>,
-    /// The write of `outputs` fired.
-    pub written: bool,
-    /// The colour write of `outputs` fired.
-    pub color_written: bool,
-}
-
-impl<const C: usize> Cycle<C> {
-    /// The write that fired.
-    #[inline(always)]
-    #[must_use]
-    pub fn write(&self) -> Option<&Write<C>> {
-        self.outputs.wr.as_ref().filter(|_| self.written)
-    }
-
-    /// The colour write that fired, with BLEND.
-    #[inline(always)]
-    #[must_use]
-    pub fn color_write(&self) -> Option<&ColorWrite<C>> {
-        self.outputs.blend.cwr.as_ref().filter(|_| C > FEW && self.color_written)
-    }
-}
-
 impl<const C: usize> Rig<C> {
     /// A machine after reset, its memory cleared.
     #[must_use]
@@ -90,16 +60,17 @@ impl<const C: usize> Rig<C> {
     pub fn cycle(&mut self, tri: Option<(&[PortVertex; 3], u32)>, writes_open: bool) -> Cycle<C> {
         let Rig { model, memories } = self;
         let inputs = memories.inputs(tri, writes_open);
+        let triangle = model.setup.takes(tri.is_some());
         let outputs =
             model.cycle_and_tell(&inputs, |line| memories.depth.expect(line.y, [line.major, line.minor]));
         let cycle = Cycle {
             outputs,
-            triangle: outputs.tri_ready && tri.is_some(),
+            triangle,
             read: outputs.rd.filter(|_| inputs.rd_ready),
             written: outputs.wr.is_some() && inputs.wr_ready,
             color_written: outputs.blend.cwr.is_some() && inputs.blend.cwr_ready,
         };
-        memories.step(&cycle);
+        memories.step(&cycle, model.asks());
         cycle
     }
 

@@ -7,8 +7,12 @@
 //!
 //! Rules: `docs/machine.md`, section 7. Not modelled: refresh, banks.
 
+use crate::fifo::Fifo;
 use crate::waits::{Pacer, Waits};
 use std::collections::VecDeque;
+
+/// Reads in a queue in place: no more than a read-modify-write has on their way.
+const NEAR: usize = 16;
 
 /// Words of type `W` on their way back.
 #[derive(Clone, Debug)]
@@ -17,17 +21,20 @@ pub(crate) struct Served<W> {
     pacer: Pacer,
     now: u64,
     /// Words read, with the cycle from which on each is offered.
-    reads: VecDeque<(u64, W)>,
+    reads: Fifo<(u64, W), NEAR>,
+    /// Words behind those, while that queue is full.
+    more: VecDeque<(u64, W)>,
 }
 
-impl<W: Copy> Served<W> {
+impl<W: Copy + Default> Served<W> {
     /// No read is on its way. `latency`: clocks from a read to its data.
     pub fn new(latency: u32, waits: Waits) -> Self {
         Served {
             latency: latency.into(),
             pacer: Pacer::new(waits),
             now: 0,
-            reads: VecDeque::with_capacity(16),
+            reads: Fifo::default(),
+            more: VecDeque::new(),
         }
     }
 
@@ -46,7 +53,8 @@ impl<W: Copy> Served<W> {
     /// The word of the oldest read, once it is there.
     #[inline]
     pub fn data(&self) -> Option<W> {
-        self.reads.front().filter(|(due, _)| *due <= self.now).map(|(_, word)| *word)
+        let (due, word) = *self.reads.head();
+        (!self.reads.is_empty() && due <= self.now).then_some(word)
     }
 
     /// Clock edge: the read that fired with the word stored at its address, whether data was taken, the address of the write
@@ -54,11 +62,19 @@ impl<W: Copy> Served<W> {
     #[inline(always)]
     pub fn step(&mut self, read: Option<(u32, W)>, taken: bool, written: Option<u32>) {
         if taken {
-            self.reads.pop_front();
+            self.reads.pop();
+            if let Some(next) = self.more.pop_front() {
+                self.reads.push(next);
+            }
         }
         let late = self.pacer.step(self.now, read.map(|(addr, _)| addr), written);
         if let Some((_, word)) = read {
-            self.reads.push_back((self.now.wrapping_add(self.latency).wrapping_add(late), word));
+            let read = (self.now.wrapping_add(self.latency).wrapping_add(late), word);
+            if self.reads.len() < NEAR {
+                self.reads.push(read);
+            } else {
+                self.more.push_back(read);
+            }
         }
         self.now = self.now.wrapping_add(1);
     }

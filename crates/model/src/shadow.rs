@@ -141,22 +141,38 @@ impl<const C: usize> Shadow<C> {
     /// The fragment that is offered can be taken. `map`: the ports of the memory.
     #[must_use]
     pub fn frag_ready(&self, frag: Option<&Fragment<C>>, inputs: &ShadowInputs, map: &WordIn) -> bool {
-        let reads = frag.is_some_and(|frag| matches!(self.place(frag, inputs), Place::Texel(_)));
-        !self.full() && (map.ready || !reads)
+        !self.full() && (map.ready || frag.is_none_or(|frag| self.has_place(self.place(frag, inputs), map)))
     }
 
-    /// The fragment offered to DEPTH.
+    /// A fragment that lies there can be taken.
+    #[inline]
+    fn has_place(&self, place: Place, map: &WordIn) -> bool {
+        !self.full() && (map.ready || !matches!(place, Place::Texel(_)))
+    }
+
+    /// Whether a fragment is offered to DEPTH.
+    #[inline]
     #[must_use]
-    pub fn shaded(&self, inputs: &ShadowInputs, map: &WordIn) -> Option<Fragment<C>> {
-        let head = (!self.queue.is_empty()).then(|| self.queue.head())?;
-        let (lit, left) = match head.known {
-            true => (head.value, self.all()),
-            false => {
-                let texel = self.texel(map.word?);
+    pub fn offers(&self, map: &WordIn) -> bool {
+        !self.queue.is_empty() && (self.queue.head().known || map.word.is_some())
+    }
+
+    /// Makes the fragment offered to DEPTH. False: none is.
+    #[inline]
+    pub fn shaded(&self, inputs: &ShadowInputs, map: &WordIn, fragment: &mut Fragment<C>) -> bool {
+        if self.queue.is_empty() {
+            return false;
+        }
+        let head = self.queue.head();
+        let (lit, left) = match (head.known, map.word) {
+            (true, _) => (head.value, self.all()),
+            (false, Some(word)) => {
+                let texel = self.texel(word);
                 (head.d <= texel.depth, texel.left)
             }
+            (false, None) => return false,
         };
-        let mut fragment = head.fragment;
+        *fragment = head.fragment;
         fragment.lit = lit;
         if !lit || self.transmits {
             let share = match (lit, self.gate) {
@@ -168,7 +184,7 @@ impl<const C: usize> Shadow<C> {
                 fragment.values[channel] = self.gated(fragment.values[channel], share);
             }
         }
-        Some(fragment)
+        true
     }
 
     /// The share that leaves a colour as it is.
@@ -201,24 +217,19 @@ impl<const C: usize> Shadow<C> {
         taken: bool,
         events: &mut Events,
     ) {
-        let pushed = frag.filter(|frag| self.frag_ready(Some(frag), inputs, map));
-        if let Some(frag) = frag {
-            self.count_offered(frag, pushed.is_some(), inputs, events);
+        let offered = frag.map(|frag| (frag, self.place(frag, inputs)));
+        let pushed = offered.filter(|(_, place)| self.has_place(*place, map));
+        if let Some((_, place)) = offered {
+            self.count_offered(place, pushed.is_some(), events);
         }
         self.count_texel(map, taken, events);
         if taken {
             self.queue.pop();
         }
-        if let Some(fragment) = pushed {
-            let place = self.place(fragment, inputs);
+        if let Some((fragment, place)) = pushed {
             let known = !matches!(place, Place::Texel(_));
-            let entry = Entry {
-                fragment: *fragment,
-                known,
-                value: place != Place::Behind,
-                d: self.coordinate(fragment, 2),
-            };
-            self.queue.push(entry);
+            let (value, d) = (place != Place::Behind, self.coordinate(fragment, 2));
+            self.queue.push(Entry { fragment: *fragment, known, value, d });
         }
     }
 
@@ -229,13 +240,16 @@ impl<const C: usize> Shadow<C> {
     }
 
     fn place(&self, fragment: &Fragment<C>, inputs: &ShadowInputs) -> Place {
-        let [tx, ty, d] = [0, 1, 2].map(|which| self.coordinate(fragment, which));
-        let inside = |t: i64| (0..self.size).contains(&t);
         if inputs.light_pass {
-            Place::Own
-        } else if !inputs.on {
-            Place::Off
-        } else if !inside(tx) || !inside(ty) {
+            return Place::Own;
+        }
+        if !inputs.on {
+            return Place::Off;
+        }
+        let (tx, ty, d) =
+            (self.coordinate(fragment, 0), self.coordinate(fragment, 1), self.coordinate(fragment, 2));
+        let inside = |t: i64| (0..self.size).contains(&t);
+        if !inside(tx) || !inside(ty) {
             Place::Outside
         } else if d < 0 {
             Place::Before
@@ -253,8 +267,7 @@ impl<const C: usize> Shadow<C> {
     }
 
     /// What becomes of the fragment that is offered.
-    fn count_offered(&self, frag: &Fragment<C>, pushed: bool, inputs: &ShadowInputs, events: &mut Events) {
-        let place = self.place(frag, inputs);
+    fn count_offered(&self, place: Place, pushed: bool, events: &mut Events) {
         match place {
             _ if self.full() => events.shadow.shadow_queue_full += 1,
             Place::Texel(_) => events.shadow.map_stall += u64::from(!pushed),
@@ -305,7 +318,9 @@ impl<const C: usize> Ported<C> for Shadow<C> {
     fn show(&self, pins: &Pins<Self::Takes, C>, out: &mut impl Shown) {
         let inputs = ShadowInputs::of(&pins.state);
         out.takes(self.frag_ready(pins.token, &inputs, &pins.word));
-        out.gives(self.shaded(&inputs, &pins.word).as_ref());
+        let mut fragment = Fragment::default();
+        let shaded = self.shaded(&inputs, &pins.word, &mut fragment);
+        out.gives(shaded.then_some(&fragment));
         out.asks(Ask { addr: self.read(pins.token, &inputs), take: self.mdata_ready(pins.next) });
         out.status("shadow_full", self.full());
         out.status("occupied", self.occupied());
@@ -313,7 +328,7 @@ impl<const C: usize> Ported<C> for Shadow<C> {
 
     fn clock(&mut self, pins: &Pins<Self::Takes, C>, events: &mut Events) {
         let inputs = ShadowInputs::of(&pins.state);
-        let taken = pins.next && self.shaded(&inputs, &pins.word).is_some();
+        let taken = pins.next && self.offers(&pins.word);
         self.step(pins.token, &inputs, &pins.word, taken, events);
     }
 

@@ -24,10 +24,10 @@ use edgewalk_machine::{Fill, Plan};
 #[derive(Clone, Debug)]
 pub struct Span<const C: usize> {
     textbook: bool,
-    /// W, and with `light_pass` SIZE.
-    widths: [i32; 2],
-    /// Of the pass of the line held.
-    width: i32,
+    /// W and H, and with `light_pass` SIZE and SIZE.
+    screens: [[i32; 2]; 2],
+    /// Columns and lines of the pass of the line held.
+    screen: [i32; 2],
     depth: usize,
     held: Option<Line<C>>,
     fifo: Fifo<tokens::Span<C>, 64>,
@@ -43,8 +43,8 @@ impl<const C: usize> Span<C> {
     pub fn new(plan: &Plan) -> Self {
         Span {
             textbook: plan.fill == Fill::Textbook,
-            widths: [plan.width as i32, plan.shadow.size as i32],
-            width: plan.width as i32,
+            screens: [[plan.width as i32, plan.height as i32], [plan.shadow.size as i32; 2]],
+            screen: [plan.width as i32, plan.height as i32],
             depth: plan.span_fifo as usize,
             held: None,
             fifo: Fifo::default(),
@@ -123,7 +123,7 @@ impl<const C: usize> Span<C> {
         }
         if ready && let Some(line) = line {
             self.held = Some(*line);
-            self.width = self.widths[usize::from(light_pass)];
+            self.screen = self.screens[usize::from(light_pass)];
         }
     }
 
@@ -136,15 +136,21 @@ impl<const C: usize> Span<C> {
             self.pend_fence = fence;
             events.span.empty_span += 1;
             events.span.dropped_fresh += u64::from(fresh);
+            events.span.line_off += u64::from(line.thin);
             return;
         }
-        let leftward = line.major_right && !self.textbook;
+        let leftward = line.major_right && !self.textbook && !line.thin;
         let (start, end) = self.columns(line);
-        let (x, count) =
-            if leftward { (end - 1, end - start.max(0)) } else { (start, end.min(self.width) - start) };
+        let [width, _] = self.screen;
+        let (x, y, count) = match (line.thin, leftward) {
+            (true, _) if line.flat => (line.y as i32, line.major as u32, 1), // both on the screen
+            (true, _) => (line.major, line.y, 1),
+            (false, true) => (end - 1, line.y, end - start.max(0)),
+            (false, false) => (start, line.y, end.min(width) - start),
+        };
         self.fifo.push(tokens::Span {
             x,
-            y: line.y,
+            y,
             count: count as u32, // at least 1
             leftward,
             values: line.values,
@@ -155,7 +161,8 @@ impl<const C: usize> Span<C> {
         self.fresh_in_fifo += u32::from(fresh);
         self.pend_fresh = false;
         self.pend_fence = false;
-        events.span.scissor_cut += u64::from(if leftward { start < 0 } else { end > self.width });
+        let cut = if leftward { start < 0 } else { end > width };
+        events.span.scissor_cut += u64::from(cut && !line.thin);
     }
 
     /// The columns of a line from left to right, the last one excluded.
@@ -169,8 +176,12 @@ impl<const C: usize> Span<C> {
     /// No column of the line lies on the screen.
     #[inline]
     fn is_empty(&self, line: &Line<C>) -> bool {
+        let [width, height] = self.screen;
+        if line.thin {
+            return !(0..if line.flat { height } else { width }).contains(&line.major);
+        }
         let (start, end) = self.columns(line);
-        end.min(self.width) <= start.max(0)
+        end.min(width) <= start.max(0)
     }
 }
 

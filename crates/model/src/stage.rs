@@ -9,9 +9,9 @@
 use crate::Events;
 use crate::bump::Bump;
 use crate::dither::Dither;
+use crate::io::Inputs;
 use crate::lamp::Lamp;
 use crate::lit::{Given, Lit};
-use crate::machine::Inputs;
 use crate::normal::Normal;
 use crate::ports::{Pins, Ported, Shown};
 use crate::project::Project;
@@ -52,6 +52,15 @@ pub struct Stage<const C: usize> {
     pub unit: Unit<C>,
     /// The memory it reads, by its place in [`Plan::word_memories`].
     memory: Option<usize>,
+}
+
+/// What a unit makes in a cycle of its oldest fragment and of a word that its memory offers. It is no register: it counts in the
+/// cycle in which it was made.
+#[derive(Clone, Debug, Default)]
+pub struct Made<const C: usize> {
+    /// A fragment was made.
+    there: bool,
+    lit: Lit<C>,
 }
 
 /// The links of a stage in a cycle.
@@ -99,28 +108,35 @@ impl<const C: usize> Stage<C> {
         self.memory.and_then(|memory| inputs.words.get(memory)).unwrap_or(&WordIn::NONE)
     }
 
-    /// The fragment that a unit makes in this cycle: of its oldest one and a word that its memory offers, or of the one that is offered
-    /// to it. Other units hold what they offer in a register.
+    /// Makes the fragment that the unit offers, if it is made in this cycle: of a word of its memory, or of the fragment `from` that is
+    /// offered to it. Other units hold what they offer in a register.
     #[inline]
-    pub(crate) fn made(&self, from: Option<Given<C>>, inputs: &Inputs) -> Option<Lit<C>> {
+    pub(crate) fn make<'a>(
+        &self,
+        from: impl FnOnce() -> Option<Given<'a, C>>,
+        inputs: &Inputs,
+        made: &mut Made<C>,
+    ) {
         match &self.unit {
-            Unit::Texel(unit) => unit.textured(self.port(inputs)),
+            Unit::Texel(unit) => made.there = unit.textured(self.port(inputs), &mut made.lit),
             Unit::Shadow(unit) => {
-                let shaded = unit.shaded(&inputs.shadow, self.port(inputs));
-                shaded.map(|frag| Given::alone(&frag).lit())
+                made.there = unit.shaded(&inputs.shadow, self.port(inputs), &mut made.lit.frag);
             }
             Unit::Dither(unit) => {
-                unit.dithered(from.map(|given| given.frag)).map(|frag| Given::alone(&frag).lit())
+                let dithered = unit.dithered(from().map(|given| given.frag));
+                made.there = dithered.is_some();
+                made.lit.frag = dithered.unwrap_or_default();
             }
-            _ => None,
+            _ => {}
         }
     }
 
-    /// The fragment offered on, by a register or as it was [made](Self::made).
+    /// The fragment offered on, by a register or as it was [made](Self::make).
     #[inline]
-    pub(crate) fn gives<'a>(&'a self, made: Option<&'a Lit<C>>) -> Option<Given<'a, C>> {
+    pub(crate) fn gives<'a>(&'a self, made: &'a Made<C>) -> Option<Given<'a, C>> {
         match &self.unit {
-            Unit::Texel(_) | Unit::Shadow(_) | Unit::Dither(_) => made.map(Lit::given),
+            Unit::Texel(_) => made.there.then(|| made.lit.given()),
+            Unit::Shadow(_) | Unit::Dither(_) => made.there.then(|| Given::alone(&made.lit.frag)),
             Unit::Bump(unit) => unit.bumped().map(Lit::given),
             Unit::Normal(unit) => unit.normed().map(Lit::given),
             Unit::Lamp(unit) => unit.normed().map(Lit::given),
@@ -129,9 +145,10 @@ impl<const C: usize> Stage<C> {
         }
     }
 
-    /// The fragment offered to the unit can be taken. `next`: a fragment that the unit offers is taken.
+    /// The fragment offered to the unit can be taken.
     #[inline]
-    pub(crate) fn ready(&self, from: Option<Given<C>>, next: bool, inputs: &Inputs) -> bool {
+    pub(crate) fn ready(&self, links: &Links<C>, inputs: &Inputs) -> bool {
+        let Links { from, next, .. } = *links;
         match &self.unit {
             Unit::Texel(unit) => unit.frag_ready(self.port(inputs)),
             Unit::Bump(unit) => unit.frag_ready(next),

@@ -16,16 +16,14 @@ mod view;
 
 use crate::Events;
 use crate::fetch::Fetch;
-use crate::named::{Named, Number, Place, Sourced, named};
+use crate::lit::MAX_TERMS;
+use crate::named::{Named, Number, Place, named};
 use crate::ports::{Pins, Ported, Shown};
-use crate::tokens::{Source, Span, sign_extend};
+use crate::tokens::{Source, Sourced, Span, sign_extend};
 use crate::word_memory::Ask;
 use crate::word_memory::WordIn;
 use edgewalk_machine::record::GLOSS_BITS;
 use edgewalk_machine::{Plan, Walk};
-
-/// Most terms of a machine.
-pub const MAX_TERMS: usize = 18;
 
 /// V, X, Y, XX, XY, YY of a term; of degree 1 the last three are 0.
 type Words = [u64; 6];

@@ -83,12 +83,19 @@ impl<const C: usize> Texel<C> {
         !self.full() && textures.ready
     }
 
-    /// The fragment offered on, with the outputs of the terms before u and v, and with BUMP the slopes.
+    /// Whether a fragment is offered on.
+    #[inline]
     #[must_use]
-    pub fn textured(&self, textures: &WordIn) -> Option<Lit<C>> {
-        let head = (!self.queue.is_empty()).then(|| self.queue.head())?;
-        let (word, b) = (textures.word?, self.color_bits);
-        let mut lit = *head;
+    pub fn offers(&self, textures: &WordIn) -> bool {
+        !self.queue.is_empty() && textures.word.is_some()
+    }
+
+    /// Makes the fragment offered on, with the outputs of the terms before u and v, and with BUMP the slopes. False: none is.
+    #[inline]
+    pub fn textured(&self, textures: &WordIn, lit: &mut Lit<C>) -> bool {
+        let (Some(word), false) = (textures.word, self.queue.is_empty()) else { return false };
+        let b = self.color_bits;
+        *lit = *self.queue.head();
         let colours = word >> (2 * self.slope_bits);
         for (color, place) in lit.frag.values[1..=3].iter_mut().zip([2, 1, 0]) {
             let part = (colours >> (place * b)) as u64 & ((1 << b) - 1);
@@ -101,7 +108,7 @@ impl<const C: usize> Texel<C> {
             let slope = |low: u32| sign_extend((word >> low) as i32, self.slope_bits);
             lit.cosines.slopes = [slope(self.slope_bits), slope(0)];
         }
-        Some(lit)
+        true
     }
 
     /// A texel can be taken.
@@ -133,14 +140,16 @@ impl<const C: usize> Ported<C> for Texel<C> {
 
     fn show(&self, pins: &Pins<Self::Takes, C>, out: &mut impl Shown) {
         out.takes(self.frag_ready(&pins.word));
-        out.gives(self.textured(&pins.word).as_ref());
+        let mut lit = Lit::default();
+        let textured = self.textured(&pins.word, &mut lit);
+        out.gives(textured.then_some(&lit));
         out.asks(Ask { addr: self.read(pins.token.map(Lit::given)), take: self.xdata_ready(pins.next) });
         out.status("texel_full", self.full());
         out.status("occupied", self.occupied());
     }
 
     fn clock(&mut self, pins: &Pins<Self::Takes, C>, events: &mut Events) {
-        let taken = pins.next && self.textured(&pins.word).is_some();
+        let taken = pins.next && self.offers(&pins.word);
         self.step(pins.token.map(Lit::given), &pins.word, taken, events);
     }
 

@@ -1,6 +1,6 @@
 //! The tokens that move between the units.
 
-use crate::named::{Sourced, named};
+use crate::named::{Named, named};
 pub use edgewalk_machine::MAX_CHANNELS;
 use edgewalk_machine::{Channel, EdgeKind, Plan};
 
@@ -83,6 +83,12 @@ pub struct Source {
     pub id: u32,
 }
 
+/// A token with the triangle that it comes from.
+pub trait Sourced: Named {
+    /// The triangle.
+    fn source(&mut self) -> &mut Source;
+}
+
 /// An edge on its way from line to line (bound 9): column `c` and remainder `r`, stepped by quotient `q` and fraction `f`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct EdgeWalk {
@@ -118,6 +124,10 @@ tokens! {
         lines: [u32; 2] = [0; 2] => [n1([0]), n2([1])];
         /// The major edge lies right.
         major_right: bool = false => [major_right()];
+        /// A line, a pixel wide.
+        thin: bool = false => [thin()];
+        /// Of a line: x and y have changed places.
+        flat: bool = false => [flat()];
         /// Edge 0-2.
         major: EdgeWalk = EdgeWalk::default() => [major_c(.c), major_r(.r), major_q(.q), major_f(.f), major_m(.m)];
         /// Edges 0-1 and 1-2.
@@ -149,6 +159,10 @@ tokens! {
         minor: i32 = 0 => [cmin()];
         /// The major edge lies right.
         major_right: bool = false => [major_right()];
+        /// A pixel of a line.
+        thin: bool = false => [thin()];
+        /// Of a line: x and y have changed places.
+        flat: bool = false => [flat()];
         /// Values at the first pixel.
         values: Words<C> = [0; C] => [] channels [""()];
         /// First line of its triangle.
@@ -223,6 +237,14 @@ tokens! {
         lit: bool = false => [lit()];
         /// The triangle.
         source: Source = Source::default() => [tag(.tag)];
+    }
+}
+
+impl<const C: usize> Prim<C> {
+    /// Its spans run to the left.
+    #[inline(always)]
+    pub(crate) fn runs_left(&self, textbook: bool) -> bool {
+        self.major_right && !textbook && !self.thin
     }
 }
 

@@ -15,14 +15,12 @@ mod walk;
 pub(crate) mod fragments;
 
 pub use structure::{
-    Field, Item, LinkView, Mark, Moment, Register, Row, Sentence, Shape, Store, Structure, Table, UnitView,
+    Field, Id, Item, LinkView, Mark, Moment, Register, Row, Sentence, Shape, Store, Structure, Table,
+    UnitView,
 };
 pub use tokens::{Kind, Tokens};
 
 use edgewalk_machine::{Activity, Channel, Plan};
-
-/// Number of a register: its place among the values of a cycle.
-pub type Id = usize;
 
 /// The machine as it stands in one cycle after the other.
 #[derive(Clone, Debug, Default)]

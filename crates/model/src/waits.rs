@@ -7,11 +7,28 @@
 //! Written as `none`, `fixed:rd=1,data=4`, `random:seed=1,rd=64`, `dram:banks=4,page=256`: a kind, and the parameters that are
 //! not to stand as they are by themselves.
 
-use crate::memory::Stalls;
 use rand_pcg::Pcg32;
 use rand_pcg::rand_core::{RngCore, SeedableRng};
 use std::fmt;
 use std::str::FromStr;
+
+/// How often the memory makes the machine wait, in 256ths; all zero: never. The same seed stalls in the same cycles.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Stalls {
+    /// Seed of the pattern.
+    pub seed: u64,
+    /// `rd_ready` is low in so many of 256 cycles.
+    pub rd: u8,
+    /// So many of 256 reads take 1 to 8 cycles longer.
+    pub data: u8,
+    /// `wr_ready` is low in so many of 256 cycles.
+    pub wr: u8,
+}
+
+impl Stalls {
+    /// A memory that is always ready.
+    pub const NONE: Stalls = Stalls { seed: 0, rd: 0, data: 0, wr: 0 };
+}
 
 /// The same clocks for every access.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -4,7 +4,7 @@ use crate::common::{Triangle, moved, random_values, render};
 use edgewalk_machine::key::Domain;
 use edgewalk_machine::keys::KEYS;
 use edgewalk_machine::{
-    BlendKind, Dither, ForeignVertex, Hazard, Machine, Plan, ScreenDoor, ShadeKind, ShadowLight, Walk,
+    BlendKind, Dither, ForeignVertex, Hazard, Machine, Plan, Role, ScreenDoor, ShadeKind, ShadowLight, Walk,
 };
 use edgewalk_model::fast::{self, Path, Reason, Refusal};
 use edgewalk_model::{Activity, DrawState, Events, Frame, Stalls};
@@ -84,7 +84,12 @@ fn random_triangles(machine: &Plan, rng: &mut impl Rng) -> Vec<Triangle> {
                 }
                 _ => {}
             }
-            triangle
+            // A line as the host sends it, or any three vertices as one.
+            match rng.random_range(0..8) {
+                0..3 => machine.line([triangle[0], triangle[1]]),
+                3 => machine.with_role(triangle, Role::Line { flat: rng.random() }),
+                _ => triangle,
+            }
         })
         .collect()
 }

@@ -11,6 +11,7 @@ mod fast;
 mod named;
 mod golden;
 mod hazards;
+mod lines;
 mod own_pass;
 mod pairs;
 mod passage;

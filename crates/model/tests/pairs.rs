@@ -9,7 +9,7 @@ use edgewalk_model::setup::Setup;
 use edgewalk_model::tokens::{EdgeWalk, Prim, sign_extend};
 use edgewalk_model::{Culled, Events, SetupClocks, longest_setup, setup_clocks};
 use lane::{Lane, Pair, over_bits, s, u};
-use rand::{Rng, SeedableRng, rngs::StdRng};
+use rand::{SeedableRng, rngs::StdRng};
 use std::array::from_fn;
 
 /// What all lanes of a round took, as they do the same steps.
@@ -379,7 +379,7 @@ fn pairs_give_what_the_formulae_say() {
     let mut all = 0;
     for (seed, (fill, kind)) in kinds.into_iter().enumerate() {
         let mut rng = StdRng::seed_from_u64(seed as u64);
-        let mut settings = vec![("edge.fill", fill), ("edge.kind", kind)];
+        let mut settings = vec![("edge.fill", fill), ("edge.kind", kind), ("setup.kind", "parallel")];
         if fill == "textbook" {
             settings.push(("screen.subpixel_bits", "0"));
         }

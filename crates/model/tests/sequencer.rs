@@ -2,11 +2,13 @@
 //! and channels of triangles of all kinds, with 1, 2 and 4 lanes.
 
 use crate::common::{Triangle, any_triangle, random_machine};
-use edgewalk_machine::{MAX_CHANNELS, Machine, Plan};
+use edgewalk_machine::sequencer::Program;
+use edgewalk_machine::sequencer::word::{Base, Control, Only, Sign, Word};
+use edgewalk_machine::{MAX_CHANNELS, Machine, Plan, SetupKind};
 use edgewalk_model::setup::Setup;
 use edgewalk_model::setup::sequencer::SlowSetup;
 use edgewalk_model::tokens::{EdgeWalk, Prim};
-use edgewalk_model::{Culled, Events};
+use edgewalk_model::{Culled, Events, longest_setup, setup_clocks};
 use rand::{Rng, SeedableRng, rngs::StdRng};
 
 /// What the formulae give, and why the triangle is culled: an edge that is not walked has M = 0 in a sequenced SETUP.
@@ -40,12 +42,19 @@ struct Seen {
 impl Seen {
     fn check(&mut self, plan: &Plan, count: usize, rng: &mut StdRng) {
         let slow = SlowSetup::new(plan);
+        let sequenced =
+            plan.with(|m| m.setup_kind = SetupKind::Sequenced).plan().expect("exact fill and edges");
         for _ in 0..count {
             let triangle = any_triangle(plan, rng);
             let light_pass = plan.shadow.draws_map() && rng.random_bool(0.5);
             let (prim, culled) = by_formulae(plan, &triangle, light_pass);
             let ran = slow.run::<MAX_CHANNELS>(&triangle, light_pass).expect("the program ends");
             let context = || format!("{triangle:?} on {plan:?}");
+            if !light_pass {
+                // Counted without running the program, as the machine's model does.
+                assert_eq!(setup_clocks(&sequenced, &triangle).phase1, ran.clocks, "S of {}", context());
+                assert!(ran.clocks <= longest_setup(&sequenced).all(), "the longest: {}", context());
+            }
             assert_eq!(ran.early, 0, "rows and checks are waited for: {}", context());
             let causes = [Culled::Lines, Culled::Columns, Culled::Area];
             assert_eq!(causes.map(|cause| u64::from(ran.culled == Some(cause))), culled, "{}", context());
@@ -81,7 +90,12 @@ fn campaign(count: usize) {
     for lanes in [1, 2, 4] {
         let mut rng = StdRng::seed_from_u64(lanes.into());
         let lanes_key = lanes.to_string();
-        let settings = [("edge.fill", "exact"), ("edge.kind", "exact"), ("setup.lanes", lanes_key.as_str())];
+        let settings = [
+            ("setup.kind", "parallel"),
+            ("edge.fill", "exact"),
+            ("edge.kind", "exact"),
+            ("setup.lanes", lanes_key.as_str()),
+        ];
         let share = count / 6;
         let mut own = Seen::default();
         own.check(&Machine { lanes, ..Machine::default() }.plan().expect("can be built"), share, &mut rng);
@@ -107,4 +121,66 @@ fn program_gives_what_the_formulae_say() {
 #[ignore = "a campaign of minutes"]
 fn program_gives_the_same_on_many_triangles() {
     campaign(100_000);
+}
+
+/// The word with one part altered, each part in turn.
+fn altered(word: &Word) -> Vec<Word> {
+    let mut all = Vec::new();
+    let mut push = |change: &dyn Fn(&mut Word)| {
+        let mut other = word.clone();
+        change(&mut other);
+        if other != *word {
+            all.push(other);
+        }
+    };
+    push(&|word| word.step = None);
+    push(&|word| word.write = None);
+    push(&|word| word.give = None);
+    push(&|word| word.act = None);
+    push(&|word| word.factor = None);
+    push(&|word| word.control = Control::Next);
+    for base in [Base::Nothing, Base::Same, Base::Twice, Base::Masked] {
+        push(&|word| word.step.iter_mut().for_each(|step| step.base = base));
+    }
+    for sign in [Sign::Plus, Sign::Minus, Sign::ByA, Sign::PlusBySide, Sign::MinusBySide] {
+        push(&|word| word.step.iter_mut().for_each(|step| step.sign = sign));
+    }
+    for only in [Only::Always, Only::Negative, Only::Positive, Only::NoUpper, Only::Right] {
+        push(&|word| word.step.iter_mut().for_each(|step| step.only = only));
+    }
+    all
+}
+
+/// Each part of each word, altered, changes a result or a time of one of these triangles, but for those that are printed:
+/// their alterations change nothing that a triangle can show.
+#[test]
+fn altered_words_of_program_are_found() {
+    const TRIANGLES: usize = 200;
+    let plan = Machine { lanes: 1, ..Machine::default() }.plan().expect("can be built");
+    let mut rng = StdRng::seed_from_u64(7);
+    let triangles: Vec<Triangle> = (0..TRIANGLES).map(|_| any_triangle(&plan, &mut rng)).collect();
+    let program = Program::of(&plan);
+    let results = |program: Program| {
+        let slow = SlowSetup::with(&plan, program);
+        let triangles = triangles.clone();
+        triangles.into_iter().map(move |triangle| {
+            let ran = slow.run::<MAX_CHANNELS>(&triangle, false)?;
+            Some((ran.culled.is_none().then_some(ran.prim), ran.culled, ran.clocks, ran.early))
+        })
+    };
+    let right: Vec<_> = results(program.clone()).collect();
+    let (mut made, mut survivors) = (0, Vec::new());
+    for (place, word) in program.words.iter().enumerate() {
+        for other in altered(word) {
+            let mut wrong = program.clone();
+            wrong.words[place] = other;
+            made += 1;
+            if results(wrong).zip(&right).all(|(found, right)| found == *right) {
+                survivors.push(format!("{place}: {}", word.text));
+            }
+        }
+    }
+    println!("{} of {made} alterations found; not:\n{}", made - survivors.len(), survivors.join("\n"));
+    assert!(made > 2000, "{made} alterations");
+    assert!(survivors.len() * 10 < made, "{} of {made} are not found", survivors.len());
 }

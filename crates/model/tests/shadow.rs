@@ -97,7 +97,8 @@ fn feed(
         let read = unit.read(frag, &asked).filter(|_| map.ready);
         let fires = frag.is_some() && unit.frag_ready(frag, &asked, &map);
         let ready = willing();
-        let shaded = unit.shaded(&asked, &map).filter(|_| ready);
+        let mut made = Fragment::default();
+        let shaded = (unit.shaded(&asked, &map, &mut made) && ready).then_some(made);
         let taken = map.word.is_some() && unit.mdata_ready(ready);
         unit.step(frag, &asked, &map, shaded.is_some(), &mut events);
         memory.step(read, taken);

@@ -11,17 +11,38 @@ use flate2::write::DeflateEncoder;
 use std::io::Write as _;
 
 /// Bytes on their way into the file.
-#[derive(Clone, Debug, Default)]
-pub struct Stream(Vec<u8>);
+#[derive(Debug)]
+pub struct Stream {
+    /// Not yet deflated.
+    bytes: Vec<u8>,
+    deflated: DeflateEncoder<Vec<u8>>,
+}
+
+/// Bytes that are deflated at a time.
+const PIECE: usize = 1 << 16;
+
+impl Default for Stream {
+    fn default() -> Self {
+        Stream { bytes: Vec::new(), deflated: DeflateEncoder::new(Vec::new(), Compression::best()) }
+    }
+}
 
 impl Stream {
     /// Seven bits a byte, the least first, the highest bit set where more follow.
     fn varint(&mut self, mut value: u64) {
         while value >= 1 << 7 {
-            self.0.push(value as u8 | 1 << 7);
+            self.bytes.push(value as u8 | 1 << 7);
             value >>= 7;
         }
-        self.0.push(value as u8);
+        self.bytes.push(value as u8);
+        if self.bytes.len() >= PIECE {
+            self.deflate();
+        }
+    }
+
+    fn deflate(&mut self) {
+        self.deflated.write_all(&self.bytes).expect("a vector takes every byte");
+        self.bytes.clear();
     }
 
     /// Differences modulo 2^bits, the nearest to 0, their sign in the lowest bit.
@@ -46,10 +67,9 @@ impl Stream {
 
     /// Deflated, as base64.
     #[must_use]
-    pub fn pack(&self) -> String {
-        let mut deflate = DeflateEncoder::new(Vec::new(), Compression::best());
-        let packed = deflate.write_all(&self.0).and_then(|()| deflate.finish());
-        STANDARD.encode(packed.expect("a vector takes every byte"))
+    pub fn pack(mut self) -> String {
+        self.deflate();
+        STANDARD.encode(self.deflated.finish().expect("a vector takes every byte"))
     }
 }
 
@@ -62,20 +82,20 @@ mod tests {
         let mut stream = Stream::default();
         // 255 to 0 is one up in 8 bits; 64 needs two bytes with its sign.
         stream.differences(8, [255, 0, 64, 63]);
-        assert_eq!(stream.0, [1, 2, 0x80, 1, 1]);
+        assert_eq!(stream.bytes, [1, 2, 0x80, 1, 1]);
     }
 
     #[test]
     fn a_word_of_56_bits_keeps_all_of_them() {
         let mut stream = Stream::default();
         stream.differences(56, [(1 << 55) - 1, 1 << 55]);
-        assert_eq!(stream.0, [0xfe, 0xff, 0xff, 0xff, 0xff, 0xff, 0xff, 0x7f, 2]);
+        assert_eq!(stream.bytes, [0xfe, 0xff, 0xff, 0xff, 0xff, 0xff, 0xff, 0x7f, 2]);
     }
 
     #[test]
     fn gaps_come_before_values() {
         let mut stream = Stream::default();
         stream.column(4, &Column { at: vec![0, 3, 200], value: vec![5, 4, 6] });
-        assert_eq!(stream.0, [0, 3, 0xc5, 1, 10, 1, 4]);
+        assert_eq!(stream.bytes, [0, 3, 0xc5, 1, 10, 1, 4]);
     }
 }

@@ -160,7 +160,7 @@ impl Replay<'_> {
             }
         }
         for plane in &recording.before {
-            stream.differences(32, plane.iter().map(|word| u64::from(*word)));
+            stream.differences(32, plane.words().map(u64::from));
         }
         stream.pack()
     }

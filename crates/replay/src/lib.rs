@@ -17,4 +17,4 @@ pub mod page;
 pub use file::{Difference, Replay, Truth};
 pub use lesson::{Lesson, lesson};
 pub use record::{LIMIT, RecordError, Rules, Window, record, record_passes};
-pub use recording::{Column, Recorder, Recording};
+pub use recording::{Column, Plane, Recorder, Recording};

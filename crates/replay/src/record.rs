@@ -1,6 +1,6 @@
 //! Runs the model and takes it down.
 
-use crate::recording::{Recorder, Recording};
+use crate::recording::{Plane, Recorder, Recording};
 use edgewalk_machine::{
     DrawState, ForeignVertex, Maps, Pass, Plan, PortVertex, Shading, Step, first_of_picture, steps,
 };
@@ -118,15 +118,7 @@ fn run<const C: usize>(
     waits: Waits,
     window: Window,
 ) -> Result<Recording, RecordError> {
-    let mut total = 0;
-    let mut cleared = Vec::new();
-    let mut dry = Run::<C>::new(plan, triangles, rules, waits);
-    while !dry.ended {
-        if dry.cycle() {
-            cleared.push(total + 1);
-        }
-        total += 1;
-    }
+    let (total, cleared) = dry_run(Run::<C>::new(plan, triangles, rules, waits));
     let last = window.to.unwrap_or(u64::MAX).min(total - 1);
     if window.from > last {
         return Err(RecordError::Outside { from: window.from, last, total });
@@ -142,7 +134,7 @@ fn run<const C: usize>(
     for _ in 0..window.from {
         _ = run.cycle();
     }
-    let before = memory(plan, run.rig.memories.clone());
+    let before = memory(plan, &run.rig.memories);
     let mut recorder = Recorder::new();
     for _ in 0..asked {
         recorder.cycle(|view| run.rig.model.view(plan, &run.rig.inputs(run.offered(), true), view));
@@ -151,21 +143,34 @@ fn run<const C: usize>(
     Ok(recorder.finish(window.from, before))
 }
 
+/// How many cycles a run takes, and the first cycle behind each clearing of a memory.
+fn dry_run<const C: usize>(mut run: Run<'_, C>) -> (u64, Vec<u64>) {
+    let (mut total, mut cleared) = (0, Vec::new());
+    while !run.ended {
+        if run.cycle() {
+            cleared.push(total + 1);
+        }
+        total += 1;
+    }
+    (total, cleared)
+}
+
 /// What memory holds, by field of the tokens that are stored and by pixel, row by row; then, in a machine that draws its
 /// map, the words of the map. Of the light's answer, which goes with a write and into no memory here, nothing is known.
-fn memory<const C: usize>(plan: &Plan, mut memories: Memories<C>) -> Vec<Vec<u32>> {
-    let plane = |memories: &Memories<C>, width: u32, height: u32, x_bits: u32, place: usize| {
+fn memory<const C: usize>(plan: &Plan, memories: &Memories<C>) -> Vec<Plane> {
+    let plane = |of_map: bool, [width, height]: [u32; 2], x_bits: u32, place: usize, bits: u32| {
         let addresses = (0..height).flat_map(|y| (0..width).map(move |x| y << x_bits | x));
-        addresses.map(|addr| memories.pixel(addr)[place]).collect::<Vec<u32>>()
+        Plane::new(bits, addresses.map(|addr| memories.stored(of_map, addr)[place]))
     };
-    memories.set_state(DrawState::default());
-    let of_picture = |place| plane(&memories, plan.width, plan.height, plan.widths().x, place);
-    let mut planes: Vec<_> = plan.seen_channels().map(|(place, _)| of_picture(place)).collect();
-    planes.extend(plan.shadow.is_there().then(|| vec![0; planes[0].len()]));
+    let (screen, x_bits) = ([plan.width, plan.height], plan.widths().x);
+    let channels = plan.seen_channels();
+    let mut planes: Vec<_> =
+        channels.map(|(place, channel)| plane(false, screen, x_bits, place, channel.bits)).collect();
+    let pixels = plan.width as usize * plan.height as usize;
+    planes.extend(plan.shadow.is_there().then(|| Plane::new(1, std::iter::repeat_n(0, pixels))));
     if plan.shadow.draws_map() {
-        memories.set_state(DrawState { light_pass: true, ..DrawState::default() });
-        let (size, x_bits) = (plan.shadow.size, plan.shadow.side_bits());
-        planes.extend(map_channels(plan).map(|place| plane(&memories, size, size, x_bits, place)));
+        let (size, x_bits) = ([plan.shadow.size; 2], plan.shadow.side_bits());
+        planes.extend(map_channels(plan).map(|place| plane(true, size, x_bits, place, u32::BITS)));
     }
     planes
 }

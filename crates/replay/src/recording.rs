@@ -20,6 +20,38 @@ impl Column {
     }
 }
 
+/// A field of every pixel, row by row, in the narrowest type that holds it: a screen may have 2^26 pixels.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Plane {
+    /// Words of at most 8 bits.
+    Bytes(Vec<u8>),
+    /// Words of at most 16 bits.
+    Halves(Vec<u16>),
+    /// Longer words.
+    Words(Vec<u32>),
+}
+
+impl Plane {
+    /// Words of so many bits.
+    #[must_use]
+    pub fn new(bits: u32, words: impl Iterator<Item = u32>) -> Plane {
+        match bits {
+            0..=8 => Plane::Bytes(words.map(|word| word as u8).collect()),
+            9..=16 => Plane::Halves(words.map(|word| word as u16).collect()),
+            _ => Plane::Words(words.collect()),
+        }
+    }
+
+    /// All words.
+    pub fn words(&self) -> Box<dyn Iterator<Item = u32> + '_> {
+        match self {
+            Plane::Bytes(words) => Box::new(words.iter().map(|word| u32::from(*word))),
+            Plane::Halves(words) => Box::new(words.iter().map(|word| u32::from(*word))),
+            Plane::Words(words) => Box::new(words.iter().copied()),
+        }
+    }
+}
+
 /// Takes a machine down, cycle after cycle.
 #[derive(Clone, Debug, Default)]
 pub struct Recorder {
@@ -57,7 +89,7 @@ impl Recorder {
     /// The recording; `from` is the machine's cycle that was the first, `before` what its memory held then, plane by
     /// plane and row by row.
     #[must_use]
-    pub fn finish(self, from: u64, before: Vec<Vec<u32>>) -> Recording {
+    pub fn finish(self, from: u64, before: Vec<Plane>) -> Recording {
         Recording { view: self.view, columns: self.columns, cycles: self.cycles, from, before }
     }
 }
@@ -74,5 +106,5 @@ pub struct Recording {
     /// The machine's cycle that is the first.
     pub from: u64,
     /// What memory held before it: by channel and pixel, row by row; then, where the machine draws it, the map.
-    pub before: Vec<Vec<u32>>,
+    pub before: Vec<Plane>,
 }

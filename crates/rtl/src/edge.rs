@@ -68,6 +68,11 @@ fn line<'m>(m: &'m Module, plan: &Plan, walk: &Walk<'m>, prim: &Token<'m>) -> Re
     let line = Registers::new(m, "line", own);
     line["y"].when(walk.line_done, walk.idle.mux(prim["jm"], line["y"].q() + 1));
     line["major_right"].when(walk.offered, prim["major_right"]);
+    for name in ["thin", "flat"] {
+        if let (Some(register), Some(value)) = (line.get(name), prim.get(name)) {
+            register.when(walk.offered, value);
+        }
+    }
     line["fresh"].when(walk.moves, walk.idle);
     if let Some(fence) = line.get("fence") {
         fence.when(walk.moves, walk.exchanges);

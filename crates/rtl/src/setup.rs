@@ -3,6 +3,7 @@
 mod steps;
 mod control;
 mod sort;
+mod role;
 mod top;
 mod lines;
 mod area;
@@ -13,6 +14,8 @@ mod lanes;
 mod values;
 mod operands;
 mod results;
+
+mod sequencer;
 
 use std::sync::Arc;
 
@@ -48,6 +51,9 @@ Rules: all results are those of exact division, rounded once; a word keeps its l
 /// # Errors
 /// None for a machine that [`edgewalk_machine::Machine::plan`] accepts.
 pub fn setup(plan: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
+    if plan.is_sequenced() {
+        return sequencer::setup(plan);
+    }
     let m = Module::new("edgewalk_setup", DOC);
     let ports = Interface::new(&m, (SPEC.ports)(plan));
     let (tri_valid, triangle) = ports.takes();
@@ -68,13 +74,14 @@ pub fn setup(plan: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
             register.when(control.sequence.take, value);
         }
     }
+    let role = role::Role::take(&control, &triangle, &prim);
     if let Some(record) = prim.get("record") {
         // Culled triangles count: the first after a reset has record 0.
         record.reset((1 << plan.shade.record_bits) - 1).when(control.sequence.take, record.q() + 1);
     }
     let area = Area::new(&m, plan, &control, &vertices);
     let scale = Scale::new(&m, plan, &control, &area);
-    let screen = lines::Screen { m: &m, plan, light_pass };
+    let screen = lines::Screen { m: &m, plan, light_pass, role };
     let lines = Lines::new(&screen, &control, &vertices, &prim, &area);
     let sources = factors::Sources {
         m: &m,
@@ -108,7 +115,7 @@ pub fn setup(plan: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
     ports.take_ready(control.sequence.idle);
     let heights = EDGES.iter().zip(&vertices.heights);
     let moduli: Vec<_> = heights.map(|(edge, height)| (format!("{edge}_m"), *height)).collect();
-    let first_line = lines.jm.trunc(plan.widths().y);
+    let first_line = lines.jm.trunc(plan.widths().line);
     ports.give(control.sequence.done, |name| match moduli.iter().find(|(modulus, _)| modulus == name) {
         Some((_, height)) => *height,
         None if name == "jm" => first_line,

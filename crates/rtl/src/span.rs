@@ -9,7 +9,7 @@ use edgewalk_netlist::{BuildErrors, Module, Netlist, Signal};
 use crate::fifo::fifo;
 use crate::light_pass::LightPass;
 use crate::ports::Interface;
-use crate::wires::{Registers, Token, parts};
+use crate::wires::{Registers, Token, moved, parts};
 
 const DOC: &str = "SPAN cuts a line to the screen and queues what is left of it.
 
@@ -31,10 +31,12 @@ pub fn span(plan: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
     let (line_valid, line) = ports.takes();
     let span_ready = ports.gives_ready();
 
-    let (bits, size) = (line["cmaj"].width(), plan.shadow.size);
-    let width = LightPass::of(plan, &ports).number(&m, bits, plan.width.into(), size.into());
+    let (bits, lines, size) = (line["cmaj"].width(), plan.widths().y, plan.shadow.size);
+    let light_pass = LightPass::of(plan, &ports);
+    let width = light_pass.number(&m, bits, plan.width.into(), size.into());
+    let thin = Thin::of(&line, || light_pass.number(&m, bits, plan.height.into(), size.into()));
     let ends = match plan.fill {
-        Fill::Exact => ends_exact(&m, width, &line),
+        Fill::Exact => ends_exact(&m, width, &line, thin),
         Fill::Textbook => ends_textbook(&m, width, &line),
     };
 
@@ -48,8 +50,8 @@ pub fn span(plan: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
     let take = (line_valid & line_ready).named("take");
     let moves = (line_held.q() & room).named_doc("moves", "the line held is queued or dropped");
     line_held.when(moves, 0).when(take, 1);
-    let as_it_is: Vec<_> =
-        fields.iter().filter(|f| !matches!(f.name.as_str(), "x" | "count" | "leftward")).cloned().collect();
+    let made = |f: &str| matches!(f, "x" | "count" | "leftward") || f == "y" && thin.is_some();
+    let as_it_is: Vec<_> = fields.iter().filter(|f| !made(&f.name)).cloned().collect();
     let held = Registers::new(&m, "held", as_it_is);
     held.load(line_ready, |f| line[f]);
     let [first, end] = ["first", "end"].map(|name| m.reg(&format!("held_{name}"), ends.first.width()));
@@ -67,13 +69,16 @@ pub fn span(plan: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
     .map(|(name, doc, end)| m.reg(&format!("held_{name}"), 1).doc(doc).when(line_ready, end).q());
     let empty = (crossed | outside).named_doc("empty", "no column of it is on the screen");
     let leftward = match plan.fill {
-        Fill::Exact => m
-            .reg("held_leftward", 1)
-            .doc("drawn from its last column")
-            .when(line_ready, line["major_right"])
-            .q(),
+        Fill::Exact => {
+            m.reg("held_leftward", 1).doc("drawn from its last column").when(line_ready, ends.leftward).q()
+        }
         Fill::Textbook => m.lit(1, 0),
     };
+    let pixel = thin.map(|thin| HeldPixel {
+        thin: moved(&m, line_ready, "held_thin", "a pixel of a line", thin.thin),
+        flat: moved(&m, line_ready, "held_flat", "of a line with x and y exchanged", thin.flat),
+        y: moved(&m, line_ready, "held_y", "its line", line["y"]),
+    });
 
     m.comment("Flags of dropped lines wait for the next span.");
     let pend_fresh = m.reg("pend_fresh", 1).doc("fresh of dropped lines").reset(0);
@@ -85,13 +90,16 @@ pub fn span(plan: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
 
     m.comment("The queue.");
     let push = (moves & !empty).named("push");
-    let token = Token::new(fields.clone(), |f| match f {
-        "x" => leftward.mux(end - 1, first),
-        "count" => end - first,
-        "leftward" => leftward,
-        "fresh" => fresh,
-        "fence" => fence,
-        same => held[same].q(),
+    let token = Token::new(fields.clone(), |f| match (f, pixel) {
+        ("x", Some(pixel)) => pixel.flat.mux(pixel.y.zext(bits), leftward.mux(end - 1, first)),
+        ("x", None) => leftward.mux(end - 1, first),
+        ("y", Some(pixel)) => pixel.flat.mux(first.trunc(lines), pixel.y.trunc(lines)),
+        ("count", Some(pixel)) => pixel.thin.mux(1, end - first),
+        ("count", None) => end - first,
+        ("leftward", _) => leftward,
+        ("fresh", _) => fresh,
+        ("fence", _) => fence,
+        (same, _) => held[same].q(),
     });
     token.connect(queue.connect("in_valid", push).connect("out_ready", span_ready), "in", &fields);
     let span = Token::of_instance(queue, "out", fields);
@@ -120,10 +128,12 @@ struct Ends<'m> {
     crossed: Signal<'m>,
     /// None of those there are is on the screen.
     outside: Signal<'m>,
+    /// The span runs from its last column to its first.
+    leftward: Signal<'m>,
 }
 
 /// Half-open spans from the major edge inwards, to the right or to the left.
-fn ends_exact<'m>(m: &'m Module, width: Signal<'m>, line: &Token<'m>) -> Ends<'m> {
+fn ends_exact<'m>(m: &'m Module, width: Signal<'m>, line: &Token<'m>, thin: Option<Thin<'m>>) -> Ends<'m> {
     let (cmaj, cmin) = (line["cmaj"], line["cmin"]);
     m.comment("To the right from cmaj to before cmin, at most to the end of the screen; to the left to cmin, at least to column 0.");
     let right_of_screen =
@@ -136,14 +146,51 @@ fn ends_exact<'m>(m: &'m Module, width: Signal<'m>, line: &Token<'m>) -> Ends<'m
     let ordered = (cmaj.sext(wide) - cmin.sext(wide)).msb().named("ordered");
     let outside_right = (beyond(cmaj, width) | left_of_screen).named("outside_right");
     let outside_left = (before(cmaj) | right_of_screen).named("outside_left");
-    let leftward = line["major_right"];
+    let leftward = thin.map_or(line["major_right"], |thin| line["major_right"] & !thin.thin);
+    let (first, end) =
+        (leftward.mux(left_of_screen.mux(0, cmin), cmaj).named("first"), leftward.mux(cmaj, cmin));
+    let beyond = (!leftward & right_of_screen).named("beyond");
+    let crossed = leftward.mux(ordered | cmaj.eq(cmin), !ordered).named("crossed");
+    let outside = leftward.mux(outside_left, outside_right).named("outside");
     Ends {
-        first: leftward.mux(left_of_screen.mux(0, cmin), cmaj).named("first"),
-        end: leftward.mux(cmaj, cmin),
-        beyond: (!leftward & right_of_screen).named("beyond"),
-        crossed: leftward.mux(ordered | cmaj.eq(cmin), !ordered).named("crossed"),
-        outside: leftward.mux(outside_left, outside_right).named("outside"),
+        first,
+        end,
+        beyond,
+        crossed: thin.map_or(crossed, |thin| crossed & !thin.thin),
+        outside: thin.map_or(outside, |thin| thin.thin.mux(thin.outside(cmaj, width), outside)),
+        leftward,
     }
+}
+
+/// What a line that is offered is, in a machine whose port takes lines.
+#[derive(Clone, Copy)]
+struct Thin<'m> {
+    /// A pixel of a line.
+    thin: Signal<'m>,
+    /// Of one with x and y exchanged.
+    flat: Signal<'m>,
+    /// H.
+    height: Signal<'m>,
+}
+
+impl<'m> Thin<'m> {
+    fn of(line: &Token<'m>, height: impl FnOnce() -> Signal<'m>) -> Option<Thin<'m>> {
+        let (thin, flat) = (line.get("thin")?, line.get("flat")?);
+        Some(Thin { thin, flat: (thin & flat).named("exchanged"), height: height() })
+    }
+
+    /// The pixel lies beside the screen.
+    fn outside(self, column: Signal<'m>, width: Signal<'m>) -> Signal<'m> {
+        column.msb() | column.ge(self.flat.mux(self.height, width))
+    }
+}
+
+/// The same of the line held, with its line.
+#[derive(Clone, Copy)]
+struct HeldPixel<'m> {
+    thin: Signal<'m>,
+    flat: Signal<'m>,
+    y: Signal<'m>,
 }
 
 /// The column is the screen's width or more. Without its sign the comparison is one carry.
@@ -164,5 +211,12 @@ fn ends_textbook<'m>(m: &'m Module, width: Signal<'m>, line: &Token<'m>) -> Ends
     let first = (major_right.mux(cmin, cmaj) - 1).named("first");
     let on_screen = xe.slt(width).named_doc("on_screen", "the span ends on the screen");
     let crossed = on_screen.mux(xe, width).sle(first).named("crossed");
-    Ends { first, end: xe, beyond: !on_screen, crossed, outside: xe.sle(0).named("outside") }
+    Ends {
+        first,
+        end: xe,
+        beyond: !on_screen,
+        crossed,
+        outside: xe.sle(0).named("outside"),
+        leftward: major_right,
+    }
 }

@@ -22,7 +22,7 @@ const PASS: UnitSpec = UnitSpec {
 };
 
 fn link(name: &'static str, fields: Vec<Field>) -> Link {
-    Link { name, fields, ready: Ready::Always }
+    Link { name, fields, ready: Ready::Always, words: Vec::new() }
 }
 
 fn ports(plan: &Plan) -> Ports {

@@ -97,6 +97,11 @@ fn ports_of_the_default_machine() {
 }
 
 #[test]
+fn ports_of_a_machine_that_takes_lines() {
+    check("lines.txt", include_str!("ports/lines.txt"));
+}
+
+#[test]
 fn ports_of_the_textbook_machine() {
     check("textbook.txt", include_str!("ports/textbook.txt"));
 }

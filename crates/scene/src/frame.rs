@@ -37,6 +37,16 @@ pub struct Polygon {
     pub after: usize,
 }
 
+/// A line on the screen, a pixel wide: one pixel in each column, or in each row of a steep one, whose centre lies
+/// from the first end to before the other along its longer side. Of a path of lines no pixel is drawn twice.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Line {
+    /// In flat mode the first end colours the whole.
+    pub ends: [Vertex; 2],
+    /// How many triangles and polygons of the frame are drawn before it.
+    pub after: usize,
+}
+
 /// The shadows of one light: its depth map, and the way from the screen into it (ch. 7.3).
 #[derive(Debug, Clone, PartialEq)]
 pub struct Shadow {
@@ -111,6 +121,9 @@ pub struct Frame {
     pub changes: Vec<Change>,
     /// The polygons, in this order, each after as many triangles as it says ([`Frame::primitives`]).
     pub polygons: Vec<Polygon>,
+    /// The lines, in this order, each after as many triangles and polygons as it says ([`Frame::primitives`]);
+    /// without values of the user's own and without normals.
+    pub lines: Vec<Line>,
     /// What was done to them since the program gave them.
     pub host: Host,
 }
@@ -134,6 +147,7 @@ impl Frame {
             shading: None,
             triangles: Vec::new(),
             polygons: Vec::new(),
+            lines: Vec::new(),
             host: Host::default(),
         }
     }

@@ -33,7 +33,7 @@ mod band;
 pub use band::fits;
 pub use camera::Camera;
 pub use error::InputError;
-pub use frame::{Frame, MAX_CONTOUR, MAX_COORDINATE, MAX_LIGHTS, MAX_SIDE, Pane, Polygon, Shadow};
+pub use frame::{Frame, Line, MAX_CONTOUR, MAX_COORDINATE, MAX_LIGHTS, MAX_SIDE, Pane, Polygon, Shadow};
 pub use host::Host;
 pub use kind::InputKind;
 pub use light::{Attenuation, Incident, Light};

@@ -1,8 +1,12 @@
 //! Normals: of the faces, and at their corners by averaging the faces around (the slides; the crease of the
 //! notes).
 
+mod crowd;
+
 use crate::mesh::Mesh;
+use crowd::{CROWDED, Crowd, Member};
 use glam::DVec3;
+use std::collections::HashMap;
 
 /// How much a face counts in the average at a vertex.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
@@ -59,7 +63,22 @@ pub(crate) fn face_normals(mesh: &Mesh) -> Vec<DVec3> {
 /// Unit normal at each corner of each face, towards its front.
 pub(crate) fn corner_normals(mesh: &Mesh, face_normals: &[DVec3], rule: NormalRule) -> Vec<[DVec3; 3]> {
     let around = FacesAround::new(mesh);
+    let member = |face: usize, vertex: u32| Member {
+        normal: face_normals[face],
+        group: mesh.face_data()[face].group,
+        weight: weight(mesh, face, vertex, rule.weight),
+    };
+    let crowded = (0..mesh.positions().len() as u32).filter(|vertex| around.of(*vertex).len() > CROWDED);
+    let crowds: HashMap<u32, Crowd> = crowded
+        .map(|vertex| {
+            let members = around.of(vertex).iter().map(|face| member(*face as usize, vertex));
+            (vertex, Crowd::new(members.collect(), rule.crease))
+        })
+        .collect();
     let average = |own: usize, vertex: u32| {
+        if let Some(crowd) = crowds.get(&vertex) {
+            return crowd.sum(member(own, vertex)).try_normalize().unwrap_or(face_normals[own]);
+        }
         let belongs = |face: usize| match rule.crease {
             Crease::Angle(angle) => face_normals[face].dot(face_normals[own]) >= angle.cos(),
             Crease::Groups => {

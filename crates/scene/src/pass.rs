@@ -16,14 +16,20 @@ pub struct Pass {
 }
 
 impl Frame {
-    /// The first triangles alone, at most so many. The frame has no polygons.
+    /// The first triangles alone, at most so many. Lines that follow them stay. The frame has no polygons.
     #[must_use]
     pub fn first(mut self, triangles: usize) -> Self {
         self.triangles.truncate(triangles);
+        self.lines.retain(|line| line.after <= triangles);
         if let Some(shading) = &mut self.shading {
             shading.triangles.truncate(triangles);
         }
         self
+    }
+
+    /// How many triangles, polygons and lines it draws.
+    pub fn drawn(&self) -> usize {
+        self.triangles.len() + self.polygons.len() + self.lines.len()
     }
 
     /// The rules at the beginning.
@@ -45,7 +51,7 @@ impl Frame {
     /// The passes in order, at least one; those without a primitive are left out unless nothing is drawn at
     /// all. What they clear the next one clears.
     pub fn passes(&self) -> Vec<Pass> {
-        let all = self.triangles.len() + self.polygons.len();
+        let all = self.drawn();
         let mut passes = Vec::new();
         let (mut from, mut state, mut clear_depth) = (0, self.state(), false);
         for change in &self.changes {

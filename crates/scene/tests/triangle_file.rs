@@ -2,7 +2,7 @@
 #![allow(clippy::unwrap_used)] // a test that unwraps nothing reports it
 
 use edgewalk_scene::{
-    Blending, Change, DepthFunc, Frame, Host, MAX_COORDINATE, MAX_EXTRA, MAX_EXTRA_VALUE, MAX_LIGHTS,
+    Blending, Change, DepthFunc, Frame, Host, Line, MAX_COORDINATE, MAX_EXTRA, MAX_EXTRA_VALUE, MAX_LIGHTS,
     MAX_SIDE, Pane, Polygon, Primitive, ShadeMode, Shadow, State, Triangle, Vertex, triangle_file,
 };
 use proptest::prelude::*;
@@ -398,7 +398,7 @@ fn light_of(frame: &Frame, light: usize) -> usize {
 
 /// Those between primitives that change something, one at a place.
 fn changes_of(frame: &Frame, rules: Vec<(prop::sample::Index, State, bool)>) -> Vec<Change> {
-    let count = frame.triangles.len() + frame.polygons.len();
+    let count = frame.drawn();
     let mut rules: Vec<_> =
         rules.into_iter().map(|(at, state, clear)| (at.index(count + 1), state, clear)).collect();
     rules.sort_by_key(|(after, ..)| *after);
@@ -430,6 +430,7 @@ prop_compose! {
         mut triangles in prop::collection::vec(prop::array::uniform3(vertex()).prop_map(Triangle), 0..20),
         values in prop::collection::vec(own_value(), 20 * 3 * MAX_EXTRA),
         shapes in prop::collection::vec((contours(), any::<prop::sample::Index>()), 0..4),
+        segments in prop::collection::vec((prop::array::uniform2(vertex()), any::<prop::sample::Index>()), 0..4),
     ) -> Frame {
         let mut polygons: Vec<_> = shapes
             .into_iter()
@@ -439,6 +440,10 @@ prop_compose! {
         if extra > 0 {
             polygons.clear();
         }
+        let surfaces = triangles.len() + polygons.len();
+        let line = |(ends, after): ([Vertex; 2], prop::sample::Index)| Line { ends, after: after.index(surfaces + 1) };
+        let mut lines: Vec<Line> = segments.into_iter().filter(|_| extra == 0).map(line).collect();
+        lines.sort_by_key(|line| line.after);
         let vertices = triangles.iter_mut().flat_map(|triangle| &mut triangle.0);
         for (vertex, values) in vertices.zip(values.chunks(MAX_EXTRA)) {
             vertex.extra[..extra].copy_from_slice(&values[..extra]);
@@ -446,7 +451,7 @@ prop_compose! {
         let depth_write = write && depth.is_some();
         let changes = Vec::new();
         let mut frame = Frame {
-            width, height, mode, depth, depth_write, blend, color_write, clear, extra, shadows, light, triangles, changes, polygons,
+            width, height, mode, depth, depth_write, blend, color_write, clear, extra, shadows, light, triangles, changes, polygons, lines,
             shading: None,
             host: Host::default(),
         };
@@ -463,7 +468,7 @@ proptest! {
         triangle_file::write(&frame, &mut text).unwrap();
         let streamed: Result<Vec<Triangle>, _> =
             triangle_file::Reader::new("a.tri", &text[..]).unwrap().collect();
-        prop_assert_eq!(streamed.is_ok(), frame.polygons.is_empty() && frame.changes.is_empty());
+        prop_assert_eq!(streamed.is_ok(), frame.drawn() == frame.triangles.len() && frame.changes.is_empty());
         prop_assert!(streamed.map_or(true, |triangles| triangles == frame.triangles));
         prop_assert_eq!(triangle_file::parse("a.tri", &text[..]).unwrap(), frame);
     }

@@ -61,6 +61,36 @@ fn every_suite_of_blend() {
     assert!(compared.iter().all(|compared| *compared > 100_000), "{compared:?}");
 }
 
+/// Lines and triangles in turn, in each pass of the machine that draws its map; the events of lines are met.
+#[test]
+fn every_suite_of_lines() {
+    let machines = common::lined();
+    let compared: Vec<u64> = common::two_at_a_time(&machines, |i, (name, machine)| {
+        let (mut compared, mut natives) = (0, common::Natives::new(machine));
+        let mut met = edgewalk_machine::Events::default();
+        for (j, suite) in ["lines", "random"].into_iter().enumerate() {
+            let suite = Suite::named(machine, suite, 3, 30).expect("listed");
+            for light_pass in [false, true].into_iter().take(1 + usize::from(machine.shadow.draws_map())) {
+                let runs = Runs::new(machine, &suite, DrawState { light_pass, ..suite.state });
+                for unit in Unit::all(machine) {
+                    let trace = runs.capture(unit, StallKind::ALL[(i + j) % 3]);
+                    let agreement =
+                        natives.lockstep(&trace).unwrap_or_else(|error| panic!("{name}: {error}"));
+                    assert_eq!(agreement.compared, trace.port_values());
+                    compared += agreement.compared;
+                    met.merge(&trace.events);
+                }
+            }
+        }
+        for (event, count) in met.counts().into_iter().filter(|(event, _)| event.starts_with("line_")) {
+            assert!(count > 0, "{name}: {event} is not met");
+        }
+        compared
+    });
+    println!("{} machines, {} port values compared", compared.len(), compared.iter().sum::<u64>());
+    assert!(compared.iter().all(|compared| *compared > 100_000), "{compared:?}");
+}
+
 /// SHADOW, its directed suites and those of hazards; the whole machine, whose lock-step takes the longest, once each.
 #[test]
 fn every_suite_of_shadow() {

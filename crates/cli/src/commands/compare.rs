@@ -1,14 +1,18 @@
 //! `edgewalk compare`: two machines on one input, by what differs.
 
+mod difference;
 mod page;
 
+use crate::Talk;
 use crate::cost::{SynthArgs, Synthesiser};
 use crate::machine_args::MachineArgs;
+use crate::picture::Png;
+use crate::progress::reading;
 use crate::staging::Staging;
 use crate::verdict::Verdict;
-use crate::{Talk, picture};
 use anyhow::{Context, Result, anyhow};
-use edgewalk_explore::sweep::equation::Equation;
+use difference::First;
+use edgewalk_explore::sweep::equation::{Equation, Measure};
 use edgewalk_explore::sweep::shading::{SHADINGS, named, of_machine};
 use edgewalk_golden::Shading;
 use edgewalk_host::draw;
@@ -16,7 +20,7 @@ use edgewalk_host::input::{Input, Shaded};
 use edgewalk_host::port::to_port;
 use edgewalk_host::raster::Raster;
 use edgewalk_host::reach::reach;
-use edgewalk_judge::compare::compare_shaded;
+use edgewalk_judge::beside::{Golden, Proved, Subject};
 use edgewalk_judge::report::Report;
 use edgewalk_judge::setup_report::SetupReport;
 use edgewalk_machine::Plan;
@@ -72,7 +76,9 @@ const FILES: [&str; 5] = ["a.png", "b.png", "difference.png", "compare.json", "c
 /// Runs the command.
 pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
     // Opened once: it may be a pipe.
+    let being_read = reading();
     let input = Input::open(&args.input, Shaded::Corners(Shading::Gouraud))?;
+    drop(being_read);
     let asked = |name: &str| Asked::new(name, &input, args, machine);
     let [a, b] = [asked(&args.a)?, asked(&args.b)?];
     if (a.plan.width, a.plan.height) != (b.plan.width, b.plan.height) {
@@ -96,23 +102,33 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
     };
     // One measure for both: the screens are the same, and all ways of shading show the same triangles.
     let equation = if a.shading == b.shading { None } else { Equation::of(&a.input, &a.plan) };
-    let side = |of: Asked| -> Result<Side> {
-        let (report, raster) = drawn(&of, args.stalls).with_context(|| of.name.clone())?;
+    let (width, height) = (a.plan.width, a.plan.height);
+    // The picture goes into a file and is shown to `see`, from the top in bands.
+    let side = |of: Asked, file: &str, see: &mut dyn FnMut(&Raster) -> Result<()>| -> Result<Side> {
+        let mut measure = equation.as_ref().map(Equation::measure);
+        let mut image = Png::create(&out, file, width, height)?;
+        let report = drawn(&of, args.stalls, |raster| {
+            measure.iter_mut().for_each(|measure| measure.add(raster));
+            image.extend_rgb(&raster.rgb)?;
+            see(raster)
+        });
+        let report = report.with_context(|| of.name.clone())?;
+        image.finish()?;
         let cost = synthesiser.as_ref().map(|synthesiser| synthesiser.cost(&of.plan));
-        let distance = equation.as_ref().map(|equation| equation.distance(&raster));
-        Ok(Side { name: of.name, plan: of.plan, shading: of.shading, report, raster, distance, cost })
+        let distance = measure.map(Measure::distance);
+        Ok(Side { name: of.name, plan: of.plan, shading: of.shading, report, distance, cost })
     };
-    let page = Page::new([side(a)?, side(b)?], &args.input, args.stalls)?;
-    let [a, b] = page.rasters();
-    picture::write_rgb(&out, "a.png", a.width, a.height, &a.rgb)?;
-    picture::write_rgb(&out, "b.png", b.width, b.height, &b.rgb)?;
-    let full = page.largest_difference().max(f64::MIN_POSITIVE);
-    picture::write_heat(&out, "difference.png", (a.width, a.height), page.differences(), full)?;
+    let mut first = First::new(&out)?;
+    let a = side(a, "a.png", &mut |raster| first.add(raster))?;
+    let mut differences = first.beside(&out)?;
+    let b = side(b, "b.png", &mut |raster| differences.add(raster))?;
+    let pixels = differences.write(&out, "difference.png", (width, height))?;
+    let page = Page::new([a, b], &args.input, args.stalls, pixels)?;
     out.write("compare.json", page.json()?)?;
     out.write("compare.txt", page.text())?;
     out.publish(&FILES)?;
     talk.say(|| page.json(), || page.text())?;
-    page.verdict().or_nothing(&args.input, page.primitives(), (a.width, a.height))
+    page.verdict().or_nothing(&args.input, page.primitives(), (width, height))
 }
 
 /// A machine, and what it draws.
@@ -157,20 +173,18 @@ fn apart(name: &str) -> Result<(&str, Option<(&'static str, Shaded)>)> {
     }
 }
 
-/// As `render` does.
-fn drawn(of: &Asked, stalls: Waits) -> Result<(Report, Raster)> {
+/// Draws as `render` does; `see` is shown the picture from the top in bands.
+fn drawn(of: &Asked, waits: Waits, mut see: impl FnMut(&Raster) -> Result<()>) -> Result<Report> {
     let Asked { plan, input, .. } = of;
     let frame = input.frame(plan)?;
     let port = to_port(&frame, plan)?;
-    let golden = draw::golden(&frame, plan);
-    let raster = draw::fast(&frame, plan, stalls)?;
-    let proof = port.shade.as_ref().map(|feed| &feed.proof);
-    let comparison = compare_shaded(plan, &frame, &golden, &raster, reach(plan, &port)?.as_ref(), proof);
-    let setup = SetupReport::new(plan, &port.triangles);
-    let report = Report {
-        comparison: Some(comparison),
-        setup: Some(setup),
-        ..Report::new(input.name(), frame.triangles.len() as u64, plan, &raster, stalls)
-    };
-    Ok((report, raster))
+    let reach = reach(plan, &port)?;
+    let shading = port.shade.as_ref().map(|feed| &feed.proof);
+    let proved = Proved { reach: reach.as_ref(), shading };
+    let golden = Golden::of(&frame, plan);
+    let subject =
+        Subject { name: input.name(), machine: plan, frame: &frame, golden: &golden, proved, waits };
+    let draw = |lines, take: &mut dyn FnMut(_) -> _| draw::in_bands(plan, &port, waits, lines, take);
+    let report = subject.report(draw, |lines| see(lines.drawn))?;
+    Ok(Report { setup: Some(SetupReport::new(plan, &port.triangles)), ..report })
 }

@@ -61,7 +61,7 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
     // A pixel may be empty, but not the whole picture.
     Verdict::drew(explanation.covered).or_nothing(
         &args.source.input,
-        frame.triangles.len() as u64,
+        frame.drawn() as u64,
         (machine.width, machine.height),
     )
 }

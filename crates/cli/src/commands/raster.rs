@@ -157,9 +157,10 @@ fn while_it_is_read(
 fn whole(file: &TriangleFile, engine: Engine, machine: &Plan, out: &Staging, talk: Talk) -> Result<Report> {
     let frame = file.whole()?;
     let (triangles, polygons) = (frame.triangles.len() as u64, frame.polygons.len() as u64);
+    let lines = frame.lines.len() as u64;
     let report = |band: &Raster| {
         let mut report = Report::new(file.name(), triangles, machine, band, Waits::Never);
-        report.drawn.polygons = polygons;
+        (report.drawn.polygons, report.drawn.lines) = (polygons, lines);
         report
     };
     let mut page = Page::new(out, machine, report);

@@ -27,7 +27,8 @@ use std::path::PathBuf;
 ///
 /// With --engine golden a shading system in f64 draws, and the shading equation at each pixel is the reference.
 /// Pictures: image.png, truth.png and shading_error.png, a heat map with the largest error in yellow. With
-/// fast-phong also phong.png and phong_error.png, beside Phong shading. A wireframe is image.png alone.
+/// fast-phong also phong.png and phong_error.png, beside Phong shading. A wireframe by golden is
+/// image.png alone. Any other engine draws it on a machine with polygon.lines = yes, which --adapt sets.
 #[derive(clap::Args)]
 #[command(after_help = "Examples:
   edgewalk render torus-knot
@@ -39,7 +40,8 @@ use std::path::PathBuf;
   edgewalk render sphere --engine golden --shading fast-phong --fit six-point --table 4096
   edgewalk render terrain --engine golden --shading phong --shadows map
   edgewalk render terrain --shadows map --set shadow.light=perspective --set blend.kind=constant
-  edgewalk render torus --engine golden --shading wireframe --hidden-lines")]
+  edgewalk render torus --engine golden --shading wireframe --hidden-lines
+  edgewalk render torus --shading wireframe --set polygon.lines=yes")]
 pub struct Args {
     #[command(flatten)]
     source: Source,
@@ -70,9 +72,10 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
     if args.source.shading != Shading::FastPhong {
         args.fast_phong.unused()?;
     }
-    let lines_only = args.engine == Engine::Golden && args.source.shading == Shading::Wireframe;
-    if args.hidden_lines && !lines_only {
-        return Err(anyhow!("--hidden-lines: permitted with --engine golden --shading wireframe"));
+    let wireframe = args.source.shading == Shading::Wireframe;
+    let lines_only = args.engine == Engine::Golden && wireframe;
+    if args.hidden_lines && !wireframe {
+        return Err(anyhow!("--hidden-lines: permitted with --shading wireframe"));
     }
     if matches!(args.engine, Engine::Golden | Engine::Scanline) && args.stalls != Waits::Never {
         return Err(anyhow!(
@@ -89,7 +92,10 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
     if lines_only {
         return lines(args, &machine, talk);
     }
-    let (frame, order) = args.source.sorted(&machine)?;
+    let (frame, order) = match wireframe {
+        true => (args.source.wireframe(&machine, hidden(args))?, None),
+        false => args.source.sorted(&machine)?,
+    };
     let out = Staging::new(&args.out)?;
     let (mut report, verdict) =
         pictures(&args.source.input, &frame, &machine, (args.engine, args.stalls), &out, talk.quiet, |_| ())?;
@@ -98,19 +104,24 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
     out.write("report.txt", report.text())?;
     out.publish(&FILES)?;
     talk.say(|| document("report", &report), || report.text())?;
-    verdict.or_nothing(&args.source.input, frame.triangles.len() as u64, (machine.width, machine.height))
+    verdict.or_nothing(&args.source.input, frame.drawn() as u64, (machine.width, machine.height))
+}
+
+/// What becomes of lines behind surfaces.
+fn hidden(args: &Args) -> HiddenLines {
+    if args.hidden_lines { HiddenLines::Drawn } else { HiddenLines::Removed }
 }
 
 /// Draws the edges.
 fn lines(args: &Args, machine: &Plan, talk: Talk) -> Result<Verdict> {
     let frame = args.source.outlined(machine)?;
-    let hidden = if args.hidden_lines { HiddenLines::Drawn } else { HiddenLines::Removed };
-    let drawn = from_golden(wireframe(&frame, golden_fill(machine), hidden), machine);
+    let drawn = from_golden(wireframe(&frame, golden_fill(machine), hidden(args)), machine);
     let out = Staging::new(&args.out)?;
     picture::write_rgb(&out, "image.png", drawn.width, drawn.height, &drawn.rgb)?;
     let triangles = frame.triangles.len() as u64;
     let mut report = Report::new(&args.source.input, triangles, machine, &drawn, Waits::Never);
     report.drawn.polygons = frame.polygons.len() as u64;
+    report.drawn.lines = frame.lines.len() as u64;
     out.write("report.json", document("report", &report)?)?;
     out.write("report.txt", report.text())?;
     out.publish(&FILES)?;

@@ -131,7 +131,7 @@ struct Shown {
 /// The input on the machine.
 fn drawn(args: &Args, asked_for: &MachineArgs) -> Result<Shown> {
     let (machine, frame) = args.source.on_its_screen(asked_for)?;
-    let of = frame.triangles.len();
+    let (of, all) = (frame.triangles.len(), frame.drawn());
     let frame = frame.first(args.triangles);
     let port = to_port(&frame, &machine)?;
     let (count, size) = (port.triangles.len() as u64, (machine.width, machine.height));
@@ -148,7 +148,7 @@ fn drawn(args: &Args, asked_for: &MachineArgs) -> Result<Shown> {
     let truth = truth::truth(&machine, &frame, &ids, recording.view.tokens());
     let (scene, triangles) = (args.source.input.clone(), triangles.into_owned());
     let command = Some(explaining(args, asked_for, of));
-    Ok(Shown { machine, scene, triangles, of: of + of_lights, recording, truth, command, lesson: None })
+    Ok(Shown { machine, scene, triangles, of: all + of_lights, recording, truth, command, lesson: None })
 }
 
 /// The command that explains a pixel of what is drawn, of an input with `of` triangles. It ends with `{x} {y}`.

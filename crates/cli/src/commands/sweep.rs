@@ -182,7 +182,7 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
         Some(Part::Why(args)) => why::run(&args.key, &args.out, talk),
         None => {
             let out = args.what.out()?;
-            let sweep = Sweep::new(args.what.definition(machine, None)?)?;
+            let sweep = opened(args.what.definition(machine, None)?)?;
             let again = args.retry.iter().map(|retry| Status::from(*retry)).collect::<Vec<_>>();
             swept(&sweep, out, &again, args.what.synth.tools(), talk)
         }
@@ -277,7 +277,13 @@ fn kept(out: &Path) -> Result<Sweep> {
             definition.program
         ));
     }
-    Sweep::new(definition).with_context(named)
+    opened(definition).with_context(named)
+}
+
+/// The sweep with its inputs, which are read here.
+fn opened(definition: Definition) -> Result<Sweep> {
+    let _reading = progress::reading();
+    Sweep::new(definition)
 }
 
 /// Writes and tells what follows from the rows, of which this run made so many.

@@ -33,6 +33,10 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
     let mut text = Vec::new();
     triangle_file::write(&frame, &mut text).with_context(|| args.source.input.clone())?;
     let (triangles, size) = (frame.triangles.len(), (machine.width, machine.height));
+    let lines = match frame.lines.len() {
+        0 => String::new(),
+        count => format!(" and {count} lines"),
+    };
     if args.out == Path::new(InputKind::STANDARD_INPUT) {
         talk::print(&String::from_utf8(text).context("a triangle file is ASCII")?)?;
     } else {
@@ -44,8 +48,8 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
         let at = args.out.display().to_string();
         talk.say(
             || line("triangles", serde_json::json!({ "file": at, "triangles": triangles, "width": size.0, "height": size.1 })),
-            || format!("{at}: {triangles} triangles on {} x {} pixels", size.0, size.1),
+            || format!("{at}: {triangles} triangles{lines} on {} x {} pixels", size.0, size.1),
         )?;
     }
-    Verdict::drew(triangles as u64).or_nothing(&args.source.input, triangles as u64, size)
+    Verdict::drew(frame.drawn() as u64).or_nothing(&args.source.input, frame.drawn() as u64, size)
 }

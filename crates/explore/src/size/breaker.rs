@@ -4,7 +4,7 @@ use super::with_fraction;
 use anyhow::Result;
 use edgewalk_host::draw;
 use edgewalk_host::port::to_port;
-use edgewalk_judge::beside::{Proved, beside};
+use edgewalk_judge::beside::{Golden, Proved, beside};
 use edgewalk_machine::{Channel, Kind, Plan};
 use edgewalk_model::Waits;
 use edgewalk_numerics::solver::solve;
@@ -70,7 +70,7 @@ impl Breaker {
         let proved = Proved { reach: None, shading: None };
         let drawn =
             |lines, take: &mut dyn FnMut(_) -> _| draw::in_bands(&fewer, &port, Waits::Never, lines, take);
-        let comparison = beside(&fewer, &frame, proved, drawn, |_| Ok(()))?;
+        let comparison = beside(&fewer, &frame, &Golden::of(&frame, &fewer), proved, drawn, |_| Ok(()))?;
         let found = [comparison.errors.z.error, comparison.errors.color.error][place];
         if found <= error {
             return none("none was found that shows in a rounded output");

@@ -5,9 +5,9 @@ use super::equation::Distance;
 use super::shared::Geometry;
 use anyhow::Result;
 use edgewalk_host::draw::draw_frame;
-use edgewalk_host::port::{of_port, to_port};
+use edgewalk_host::port::to_port;
 use edgewalk_host::reach::reach;
-use edgewalk_judge::compare::compare_shaded;
+use edgewalk_judge::beside::Proved;
 use edgewalk_judge::report::Report;
 use edgewalk_judge::setup_report::SetupReport;
 use edgewalk_machine::Plan;
@@ -25,16 +25,11 @@ pub fn stands_apart(frame: &Frame, plan: &Plan) -> bool {
 /// # Errors
 /// What of the frame the machine cannot take.
 pub fn report(geometry: &Geometry, plan: &Plan, waits: Waits) -> Result<(Report, Option<Distance>)> {
-    let Geometry { name, frame, golden, equation } = geometry;
-    let port = to_port(frame, plan)?;
-    let drawn = of_port(draw_frame(plan, &port, waits)?.raster(plan), &port);
-    let distance = equation.as_ref().map(|equation| equation.distance(&drawn));
-    let (reach, proof) = (reach(plan, &port)?, port.shade.as_ref().map(|feed| &feed.proof));
-    let comparison = compare_shaded(plan, frame, golden, &drawn, reach.as_ref(), proof).without_maps();
-    let report = Report {
-        comparison: Some(comparison),
-        setup: Some(SetupReport::new(plan, &port.triangles)),
-        ..Report::new(name, frame.triangles.len() as u64, plan, &drawn, waits)
-    };
-    Ok((report, distance))
+    let port = to_port(geometry.frame(), plan)?;
+    let drawn = draw_frame(plan, &port, waits)?;
+    let reach = reach(plan, &port)?;
+    let shading = port.shade.as_ref().map(|feed| &feed.proof);
+    let proved = Proved { reach: reach.as_ref(), shading };
+    let (report, distance) = geometry.beside_golden(plan, &port, drawn, proved, waits)?;
+    Ok((Report { setup: Some(SetupReport::new(plan, &port.triangles)), ..report }, distance))
 }

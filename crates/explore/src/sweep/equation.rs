@@ -14,6 +14,16 @@ pub struct Equation {
     rgb: Vec<[f64; 3]>,
 }
 
+/// The distance of a picture from the equation, on the way: its lines come from the top.
+pub struct Measure<'e> {
+    equation: &'e Equation,
+    /// Pixels seen.
+    seen: usize,
+    pixels: u64,
+    largest: f64,
+    sum: f64,
+}
+
 /// The distance of a picture from the equation, LSB of 8 bits; at each pixel that of its worst colour.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Distance {
@@ -35,17 +45,31 @@ impl Equation {
         Some(Equation { shown: shaded.picture.id.iter().map(|id| *id >= 0).collect(), rgb: shaded.truth })
     }
 
-    /// How far this picture is from it.
+    /// Begins to measure a picture.
     #[must_use]
-    pub fn distance(&self, drawn: &Raster) -> Distance {
-        let shown = self.shown.iter().zip(&self.rgb).zip(&drawn.rgb).filter(|((shown, _), _)| **shown);
-        let (mut pixels, mut largest, mut sum) = (0_u64, 0.0_f64, 0.0);
-        for ((_, exact), drawn) in shown {
+    pub fn measure(&self) -> Measure<'_> {
+        Measure { equation: self, seen: 0, pixels: 0, largest: 0.0, sum: 0.0 }
+    }
+}
+
+impl Measure<'_> {
+    /// Measures the next lines.
+    pub fn add(&mut self, drawn: &Raster) {
+        let Equation { shown, rgb } = self.equation;
+        let equation = shown.iter().zip(rgb).skip(self.seen);
+        self.seen += drawn.rgb.len();
+        for ((_, exact), drawn) in equation.zip(&drawn.rgb).filter(|((shown, _), _)| **shown) {
             let worst = exact.iter().zip(drawn).map(|(a, b)| 255.0 * (a - b).abs()).fold(0.0, f64::max);
-            pixels += 1;
-            largest = largest.max(worst);
-            sum += worst;
+            self.pixels += 1;
+            self.largest = self.largest.max(worst);
+            self.sum += worst;
         }
+    }
+
+    /// The distance of all lines.
+    #[must_use]
+    pub fn distance(self) -> Distance {
+        let Measure { pixels, largest, sum, .. } = self;
         Distance { pixels, largest, mean: if pixels == 0 { 0.0 } else { sum / pixels as f64 } }
     }
 }

@@ -4,7 +4,7 @@ use super::apart::{self, stands_apart};
 use super::grid::Sweep;
 use super::point::Point;
 use super::row::{Cost, Found, Status, with_figures, without_figures};
-use super::shared::{Geometry, Pixels, geometry_key, pixel_key};
+use super::shared::{Geometry, Pixels, geometry_key, pixel_key, side_by_side};
 use super::store::Store;
 use anyhow::Result;
 use edgewalk_host::port::to_port;
@@ -42,7 +42,7 @@ pub fn run(sweep: &Sweep, points: &[&Point], around: &Around) -> Result<()> {
         }
     }
     // One at a time: golden's picture is the largest thing there is.
-    geometries.values().try_for_each(|points| run.geometry(points))
+    geometries.values().try_for_each(|points| run.within_memory(points))
 }
 
 struct Run<'r> {
@@ -65,6 +65,16 @@ impl Run<'_> {
     fn all(&self, points: &Points, status: Status, reason: &str) -> Result<()> {
         let row = |(point, _): &(&Point, _)| without_figures(self.sweep, point, status, reason);
         points.iter().try_for_each(|point| self.put(row(point), Instant::now()))
+    }
+
+    /// Points of one input on one screen; of a large one fewer than there are cores side by side.
+    fn within_memory(&self, points: &Points) -> Result<()> {
+        let Some((first, _)) = points.first() else { return Ok(()) };
+        let threads = side_by_side(&first.machine);
+        if threads >= rayon::current_num_threads() {
+            return self.geometry(points);
+        }
+        rayon::ThreadPoolBuilder::new().num_threads(threads).build()?.install(|| self.geometry(points))
     }
 
     /// Points of one input on one screen.

@@ -1,13 +1,13 @@
 //! What points share: those of one geometry the frame and golden, those of the same word lengths the pixels.
 
-use super::equation::{Distance, Equation};
+use super::equation::{Distance, Equation, Measure};
 use anyhow::{Result, anyhow};
-use edgewalk_host::draw;
+use edgewalk_host::draw::{self, Drawn};
 use edgewalk_host::input::Input;
 use edgewalk_host::port::{PortFrame, of_port, to_port};
-use edgewalk_host::raster::{Cycles, Raster, from_fast, from_model};
+use edgewalk_host::raster::{Cycles, Raster};
 use edgewalk_host::reach::{self, Reach, untimed};
-use edgewalk_judge::compare::compare_for;
+use edgewalk_judge::beside::{Golden, Proved, Subject};
 use edgewalk_judge::report::Report;
 use edgewalk_judge::setup_report::SetupReport;
 use edgewalk_machine::keys::KEYS;
@@ -50,11 +50,28 @@ fn values(machine: &Machine, wanted: impl Fn(&str) -> bool) -> Vec<u32> {
 
 /// A frame, and golden's picture of it.
 pub struct Geometry {
-    pub(super) name: String,
-    pub(super) frame: Frame,
-    pub(super) golden: Raster,
+    name: String,
+    frame: Frame,
+    /// None of a large screen: there it is drawn anew for each comparison, band by band.
+    golden: Option<Raster>,
     /// What every way of shading is measured by, where that is asked for.
-    pub(super) equation: Option<Equation>,
+    equation: Option<Equation>,
+}
+
+/// Pixels of the largest screen of which golden's picture is kept: it takes 45 bytes a pixel.
+const KEPT: u64 = 1 << 21;
+
+/// Pixels of all pictures that are drawn side by side: each takes up to 24 bytes a pixel.
+const SIDE_BY_SIDE: u64 = 1 << 26;
+
+/// How many pictures of this machine's screen may be drawn side by side.
+#[must_use]
+pub fn side_by_side(machine: &Machine) -> usize {
+    (SIDE_BY_SIDE / pixels(machine)).max(1) as usize
+}
+
+fn pixels(machine: &Machine) -> u64 {
+    u64::from(machine.width) * u64::from(machine.height)
 }
 
 impl Geometry {
@@ -64,7 +81,7 @@ impl Geometry {
     /// An input that such a machine cannot draw.
     pub fn new(input: &Input, plan: &Plan, asks_equation: bool) -> Result<Geometry> {
         let frame = input.frame(plan)?;
-        let golden = draw::golden(&frame, plan);
+        let golden = (pixels(plan) <= KEPT).then(|| draw::golden(&frame, plan));
         let equation = if asks_equation { Equation::of(input, plan) } else { None };
         Ok(Geometry { name: input.name().to_owned(), frame, golden, equation })
     }
@@ -73,6 +90,32 @@ impl Geometry {
     #[must_use]
     pub fn frame(&self) -> &Frame {
         &self.frame
+    }
+
+    /// What is to be said of the machine's picture, and how far that is from the shading equation, where this is asked for.
+    ///
+    /// # Errors
+    /// None but of a picture without lines.
+    pub(super) fn beside_golden(
+        &self,
+        plan: &Plan,
+        port: &PortFrame,
+        drawn: Drawn,
+        proved: Proved,
+        waits: Waits,
+    ) -> Result<(Report, Option<Distance>)> {
+        let Geometry { name, frame, golden, equation } = self;
+        let golden = golden.as_ref().map_or_else(|| Golden::of(frame, plan), Golden::Whole);
+        let mut measure = equation.as_ref().map(Equation::measure);
+        let draw = |lines: u32, take: &mut dyn FnMut(Raster) -> Result<()>| {
+            drawn.bands(plan, draw::bands(plan.height, lines), |band| take(of_port(band, port)))
+        };
+        let subject = Subject { name, machine: plan, frame, golden: &golden, proved, waits };
+        let report = subject.report(draw, |beside| {
+            measure.iter_mut().for_each(|measure| measure.add(beside.drawn));
+            Ok(())
+        })?;
+        Ok((report, measure.map(Measure::distance)))
     }
 }
 
@@ -95,27 +138,24 @@ impl Pixels {
     /// # Errors
     /// What of the frame the machine cannot take, or nothing is drawn.
     pub fn new(geometry: &Geometry, plan: &Plan) -> Result<Pixels> {
-        let Geometry { name, frame, golden, equation } = geometry;
-        let port = to_port(frame, plan)?;
+        let port = to_port(geometry.frame(), plan)?;
         let fast = untimed(plan)?;
         let mut renderer = Renderer::new(&fast, true);
         let (drawn, passage, plain) = match renderer.draw_passage(&port.triangles, port.state()?) {
-            Ok(passage) => (from_fast(plan, renderer.frame(), Path::Fast), passage, true),
-            Err(Refusal::Tick(_)) => {
-                let drawn = render(&fast, port.triangles.iter().copied(), port.state()?, Waits::Never)?;
-                (from_model(plan, drawn), reach::geometry(plan, &port)?, false)
+            Ok(passage) => (Drawn::Fast(renderer), passage, true),
+            Err(Refusal::Tick(reason)) => {
+                drop(renderer);
+                let frame = render(&fast, port.triangles.iter().copied(), port.state()?, Waits::Never)?;
+                (Drawn::Ticked(frame, reason, Vec::new()), reach::geometry(plan, &port)?, false)
             }
             Err(Refusal::Foreign(foreign)) => return Err(foreign.into()),
         };
-        let drawn = of_port(drawn, &port);
         let reach = Reach::of(plan, &port.ids, &passage).ok_or_else(|| {
             anyhow!("none of the {} triangles covers a pixel of the screen", port.triangles.len())
         })?;
-        let comparison = compare_for(plan, frame, golden, &drawn, Some(&reach)).without_maps();
-        let report = Report::new(name, frame.triangles.len() as u64, plan, &drawn, Waits::Never);
-        let report = Report { comparison: Some(comparison), ..report };
+        let proved = Proved { reach: Some(&reach), shading: None };
+        let (report, distance) = geometry.beside_golden(plan, &port, drawn, proved, Waits::Never)?;
         let culled = port.triangles.iter().map(|triangle| cull(plan, triangle)).collect();
-        let distance = equation.as_ref().map(|equation| equation.distance(&drawn));
         Ok(Pixels { port, report, culled, passage, plain, distance })
     }
 

@@ -52,6 +52,12 @@ impl Grid {
         -(end * denominator - numerator).div_euclid(self.pitch() * denominator)
     }
 
+    /// The pixel that holds the quotient, or ends there: on the border of two pixels the one before. Numbers as above.
+    pub(crate) fn pixel_before_quotient(self, numerator: i64, denominator: i64) -> i64 {
+        let edge = self.centre - self.pitch() / 2;
+        -(edge * denominator - numerator).div_euclid(self.pitch() * denominator) - 1
+    }
+
     /// In pixels, exact.
     pub(crate) fn pixels(self, distance: i64) -> f64 {
         distance as f64 / self.pitch() as f64

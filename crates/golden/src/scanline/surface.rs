@@ -18,18 +18,19 @@ pub(super) struct Surface {
 }
 
 impl Surface {
-    /// Its edges snapped to so many bits.
-    pub fn new(primitive: Primitive, mode: ShadeMode, subpixel_bits: u32) -> Self {
+    /// Its edges snapped to so many bits; none of a line, which has no area.
+    pub fn new(primitive: Primitive, mode: ShadeMode, subpixel_bits: u32) -> Option<Self> {
         let table = |polygon: &Polygon| EdgeTable::new(polygon, mode, Grid::subpixels(subpixel_bits));
         let doubt = Fill::Exact { subpixel_bits }.doubt();
-        match primitive {
+        Some(match primitive {
             Primitive::Triangle(triangle) => Self {
                 table: table(&Polygon { contours: vec![triangle.0.to_vec()], after: 0 }),
                 plane: Cover::new(triangle, mode, subpixel_bits),
                 doubt,
             },
             Primitive::Polygon(polygon) => Self { table: table(polygon), plane: None, doubt },
-        }
+            Primitive::Line(_) => return None,
+        })
     }
 }
 

@@ -93,7 +93,7 @@ impl Layers {
 /// Triangles between the same points have the same depths in any machine, bit by bit.
 fn same_depth(frame: &Frame, id: i32, stored: i32) -> bool {
     let points = |id: i32| {
-        let triangle = usize::try_from(id).ok().and_then(|id| frame.triangles.get(id));
+        let triangle = usize::try_from(id).ok().and_then(|id| frame.triangle_at(id));
         triangle.map(|triangle| triangle.0.map(|v| [v.x, v.y, v.z]))
     };
     points(id).is_some_and(|own| points(stored) == Some(own))

@@ -238,7 +238,7 @@ impl<'a> Lights<'a> {
             return Bounds::Proved([texel, texel, lz]);
         }
         let place = id as usize; // a triangle is there
-        let triangle = self.frame.triangles.get(place);
+        let triangle = self.frame.triangle_at(place);
         let scale = triangle.map(|triangle| scale(shadow, place, &triangle.0, self.machine));
         let Some(Ok(scale)) = scale else { return Bounds::Open };
         // All four values are rounded to nearest.

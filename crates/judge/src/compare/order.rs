@@ -4,14 +4,14 @@
 //! output rounding, 0 for the cleared depth). Nearer ones may come out as less, equal or greater. Playing the depth test at
 //! a pixel through, with every outcome of every test that is open, gives all that the machine may leave there.
 
-use edgewalk_golden::{Fill, Fragment, fragments};
+use edgewalk_golden::{Fill, Fragment, fragments, line_fragments};
 use edgewalk_host::extra;
 use edgewalk_host::raster::{Raster, golden_fill};
 use edgewalk_host::reach::Reach;
 use edgewalk_machine::Plan;
 use edgewalk_numerics::Dyadic;
 use edgewalk_numerics::bounds::surely_ordered_difference;
-use edgewalk_scene::{DepthFunc, Frame, MAX_EXTRA};
+use edgewalk_scene::{DepthFunc, Frame, MAX_EXTRA, Primitive};
 use std::cmp::Ordering;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -53,7 +53,7 @@ impl Over {
     }
 
     /// A fragment of the triangle with this id.
-    fn fragment(machine: &Plan, fragment: &Fragment, id: i32) -> Self {
+    fn fragment<const N: usize>(machine: &Plan, fragment: &Fragment<N>, id: i32) -> Self {
         let channels = extra::channels(machine);
         let own =
             |channel: usize| channels.get(channel).map_or(0.0, |of| fragment.extra(channel) * of.host_unit());
@@ -104,14 +104,24 @@ pub fn all_over(
     if over.is_empty() {
         return over;
     }
-    for (triangle, id) in frame.triangles.iter().zip(0..) {
-        let screen = (frame.width, frame.height);
-        fragments(triangle, frame.mode, subpixel_bits, screen, |fragment: &Fragment| {
-            let pixel = fragment.y as usize * frame.width as usize + fragment.x as usize;
-            if let Some(list) = over.get_mut(&pixel) {
-                list.push(Over::fragment(machine, fragment, id));
+    let screen = (frame.width, frame.height);
+    let mut put = |x: u32, y: u32, one: &dyn Fn() -> Over| {
+        let pixel = y as usize * frame.width as usize + x as usize;
+        over.get_mut(&pixel).into_iter().for_each(|list| list.push(one()));
+    };
+    for (primitive, id) in frame.primitives().into_iter().zip(0..) {
+        match primitive {
+            Primitive::Triangle(triangle) => {
+                fragments(triangle, frame.mode, subpixel_bits, screen, |f| {
+                    put(f.x, f.y, &|| Over::fragment(machine, f, id));
+                });
             }
-        });
+            Primitive::Line(line) => line_fragments(line, frame.mode, subpixel_bits, screen, |f| {
+                put(f.x, f.y, &|| Over::fragment(machine, f, id));
+            }),
+            // The frame that is compared has triangles in their place.
+            Primitive::Polygon(_) => {}
+        }
     }
     over
 }

@@ -21,6 +21,9 @@ pub struct Drawn {
     pub triangles: u64,
     /// Of the input.
     pub polygons: u64,
+    /// Of the input; left out where there are none.
+    #[serde(skip_serializing_if = "is_none")]
+    pub lines: u64,
     /// Triangles and polygons over all pixels together.
     pub fragments: u64,
     /// Writes to all pixels together.
@@ -43,6 +46,7 @@ impl Drawn {
             height: machine.height,
             triangles,
             polygons: 0,
+            lines: 0,
             fragments: 0,
             writes: 0,
             odd_pixels: 0,
@@ -57,26 +61,35 @@ impl Drawn {
         self.writes += band.writes.iter().map(|c| u64::from(*c)).sum::<u64>();
     }
 
-    /// Triangles and polygons of the input.
+    /// Triangles, polygons and lines of the input.
     #[must_use]
     pub fn primitives(&self) -> u64 {
-        self.triangles + self.polygons
+        self.triangles + self.polygons + self.lines
     }
 
     /// As lines of text.
-    pub(super) fn lines(&self) -> String {
+    pub(super) fn in_lines(&self) -> String {
         let Drawn { input, machine, width, height, triangles, fragments, writes, .. } = self;
         let polygons = match self.polygons {
             0 => String::new(),
             count => format!(" and {count} polygons"),
         };
-        let mut t =
-            format!("{input}: {triangles} triangles{polygons} on {width}x{height}, machine {machine}\n");
+        let segments = match self.lines {
+            0 => String::new(),
+            count => format!(" and {count} lines"),
+        };
+        let mut t = format!(
+            "{input}: {triangles} triangles{polygons}{segments} on {width}x{height}, machine {machine}\n"
+        );
         t += &host_in_words(&self.host);
         // Writing to a string cannot fail.
         _ = writeln!(t, "fragments {fragments}, writes {writes}");
         t
     }
+}
+
+fn is_none(count: &u64) -> bool {
+    *count == 0
 }
 
 fn host_in_json<S: Serializer>(host: &Host, serializer: S) -> Result<S::Ok, S::Error> {

@@ -18,7 +18,7 @@ use crate::interface::Interface;
 use crate::pack;
 use crate::unit::Unit;
 use edgewalk_machine::keys::KEYS;
-use edgewalk_machine::{Machine, MachineError, Unknown};
+use edgewalk_machine::{Field, Machine, MachineError, Unknown};
 use std::fmt::Write as _;
 use toml::{Table, Value};
 
@@ -155,7 +155,7 @@ impl Case {
         line("disturbed", whole(self.disturbed), whole(0));
         line("cycles", whole(self.cycles), whole(usual.cycles));
         line("seed", whole(self.seed), whole(0));
-        let widths: Vec<u32> = fed(&self.interface()).fields.iter().map(|port| port.width()).collect();
+        let widths: Vec<u32> = fed(&self.interface()).whole().map(Field::width).collect();
         text.push_str("tokens = [\n");
         for token in &self.tokens {
             let _ = writeln!(text, "    \"{}\",", pack::pack(&widths, token));
@@ -189,10 +189,11 @@ impl Case {
 
 fn read_token(interface: &Interface, value: &Value) -> Result<Token, CaseError> {
     let link = fed(interface);
-    let widths: Vec<u32> = link.fields.iter().map(|port| port.width()).collect();
+    let widths: Vec<u32> = link.whole().map(Field::width).collect();
     let packed = text("tokens", value)?;
     pack::unpack(&widths, &packed).ok_or_else(|| {
-        let reason = format!("{packed:?} is no token of {}: {} bits in hex", link.name, link.width());
+        let bits: u32 = widths.iter().sum();
+        let reason = format!("{packed:?} is no token of {}: {bits} bits in hex", link.name);
         wrong("tokens", reason)
     })
 }

@@ -2,7 +2,8 @@
 
 use crate::interface::{Link, Port};
 use edgewalk_machine::Plan;
-use edgewalk_model::named::{Place, Sourced};
+use edgewalk_model::named::Place;
+use edgewalk_model::tokens::Sourced;
 
 /// The fields of one link.
 #[derive(Clone, Debug)]

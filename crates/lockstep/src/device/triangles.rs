@@ -1,9 +1,9 @@
-//! Triangles at the machine's port, as tokens of `tri`.
+//! Triangles at the machine's port, as tokens of the link by which they come: at once, or word by word.
 
 use crate::Token;
 use crate::interface::{Interface, Link};
 use crate::unit::Unit;
-use edgewalk_machine::{MAX_CHANNELS, Plan, PortVertex};
+use edgewalk_machine::{MAX_CHANNELS, Plan, PortVertex, Role};
 
 /// A triangle at the port.
 pub type Triangle = [PortVertex; 3];
@@ -12,6 +12,7 @@ pub type Triangle = [PortVertex; 3];
 #[derive(Clone, Debug)]
 pub struct Triangles {
     plan: Plan,
+    link: Link,
     /// What stands in each field, with its bits.
     fields: Vec<(Part, u32)>,
 }
@@ -24,6 +25,10 @@ enum Part {
     Value(usize, usize),
     /// k_t of the triangle, that of its first vertex.
     Kt,
+    /// It is a line.
+    Thin,
+    /// And has x and y exchanged.
+    Flat,
     Tag,
 }
 
@@ -38,20 +43,22 @@ impl Triangles {
 
     /// Finds the fields by name; `None` if one of them is no part of a triangle.
     pub(super) fn of(plan: &Plan, link: &Link) -> Option<Triangles> {
-        let fields =
-            link.fields.iter().map(|port| Some((Part::named(plan, &port.field.name)?, port.width())));
-        Some(Triangles { plan: plan.clone(), fields: fields.collect::<Option<_>>()? })
+        let fields = link.whole().map(|field| Some((Part::named(plan, &field.name)?, field.width())));
+        Some(Triangles { plan: plan.clone(), link: link.clone(), fields: fields.collect::<Option<_>>()? })
     }
 
     /// The triangle as a token; of the tag the low bits.
     #[must_use]
     pub fn pack(&self, triangle: &Triangle, tag: u32) -> Token {
+        let role = Role::of(triangle);
         let value = |(part, width): &(Part, u32)| {
             let number = match *part {
                 Part::X(vertex) => triangle[vertex].x().into(),
                 Part::Y(vertex) => triangle[vertex].y().into(),
                 Part::Value(vertex, channel) => triangle[vertex].values()[channel].into(),
                 Part::Kt => triangle[0].kt().into(),
+                Part::Thin => i128::from(role != Role::Triangle),
+                Part::Flat => i128::from(role == Role::Line { flat: true }),
                 Part::Tag => i128::from(tag),
             };
             number as u128 & (u128::MAX >> (128 - width))
@@ -59,10 +66,21 @@ impl Triangles {
         self.fields.iter().map(value).collect()
     }
 
+    /// What is offered at the port, one after the other, to bring in a triangle: a token, or all its words.
+    #[must_use]
+    pub fn offers(&self, triangle: &Triangle, tag: u32) -> Vec<Token> {
+        let whole = self.pack(triangle, tag);
+        match self.link.words.len() {
+            0 => vec![whole],
+            words => (0..words).map(|place| self.link.word(&whole, place)).collect(),
+        }
+    }
+
     /// The triangle and the tag of a token.
     #[must_use]
     pub fn unpack(&self, token: &[u128]) -> (Triangle, u32) {
         let (mut x, mut y, mut values, mut tag) = ([0; 3], [0; 3], [[0; MAX_CHANNELS + 1]; 3], 0);
+        let [mut thin, mut flat] = [false; 2];
         let channels = self.plan.channels().len();
         for ((part, width), bits) in self.fields.iter().zip(token) {
             let signed = ((bits << (128 - width)) as i128 >> (128 - width)) as i64; // values have at most 48 bits
@@ -74,10 +92,14 @@ impl Triangles {
                     values[vertex][channel] = if signed_kind { signed } else { *bits as i64 };
                 }
                 Part::Kt => values[0][channels] = *bits as i64,
+                Part::Thin => thin = *bits == 1,
+                Part::Flat => flat = *bits == 1,
                 Part::Tag => tag = *bits as u32,
             }
         }
-        (std::array::from_fn(|i| self.plan.raw_vertex(x[i], y[i], &values[i])), tag)
+        let role = if thin { Role::Line { flat } } else { Role::Triangle };
+        let vertices = std::array::from_fn(|i| self.plan.raw_vertex(x[i], y[i], &values[i]));
+        (self.plan.with_role(vertices, role), tag)
     }
 }
 
@@ -85,6 +107,8 @@ impl Part {
     fn named(plan: &Plan, name: &str) -> Option<Part> {
         match name {
             "kt" => return Some(Part::Kt),
+            "thin" => return Some(Part::Thin),
+            "flat" => return Some(Part::Flat),
             "tag" => return Some(Part::Tag),
             _ => {}
         }

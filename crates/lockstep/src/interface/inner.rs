@@ -71,7 +71,12 @@ mod tests {
         present: |_| true,
         wants: |_| Vec::new(),
         ports: |plan| {
-            let link = |name| Declared { name, fields: tokens::fragment(plan), ready: Ready::Always };
+            let link = |name| Declared {
+                name,
+                fields: tokens::fragment(plan),
+                ready: Ready::Always,
+                words: Vec::new(),
+            };
             Ports { takes: Some(link("frag")), gives: Some(link("passed")), ..Ports::default() }
         },
         events: &[],

@@ -74,6 +74,8 @@ pub struct Link {
     pub own: usize,
     /// The taker's ready means something even while there is no valid.
     pub ready_always: bool,
+    /// Not empty: a token comes as so many words, one after the other in the first field; the other fields count with the last.
+    pub words: Vec<Field>,
     /// The port `name_valid`.
     pub valid: PortId,
     /// The port `name_ready`.
@@ -100,15 +102,32 @@ impl Link {
             fields,
             own: link.fields.len(),
             ready_always: link.ready == Ready::Always,
+            words: link.words.clone(),
             valid: unplaced,
             ready: unplaced,
         }
     }
 
-    /// Bits of a packed token.
+    /// What stands on the ports while a word of a whole token is sent: the word, extended by its format, and what is beside it.
+    #[must_use]
+    pub fn word(&self, whole: &[u128], place: usize) -> Vec<u128> {
+        let (word, bits) = (&self.words[place], self.fields[0].width());
+        let negative = word.format.is_signed() && whole[place] >> (word.width() - 1) & 1 == 1;
+        let above = if negative { u128::MAX << (word.width() - 1) } else { 0 };
+        let data = (whole[place] | above) & (u128::MAX >> (128 - bits));
+        std::iter::once(data).chain(whole[self.words.len()..].iter().copied()).collect()
+    }
+
+    /// Bits of a packed token; of one that comes word by word those of a word and what stands beside it.
     #[must_use]
     pub fn width(&self) -> u32 {
         self.fields.iter().map(Port::width).sum()
+    }
+
+    /// The fields of a whole token: its words, if it comes word by word, then the ports, but for that of the words.
+    pub fn whole(&self) -> impl Iterator<Item = &Field> {
+        let ports = &self.fields[usize::from(!self.words.is_empty())..];
+        self.words.iter().chain(ports.iter().map(|port| &port.field))
     }
 
     /// The place of one of the token's own fields.

@@ -3,8 +3,8 @@
 use edgewalk_machine::key::Domain;
 use edgewalk_machine::keys::KEYS;
 use edgewalk_machine::{
-    BlendKind, Dither, Fill, MAX_CHANNELS, Machine, OwnPass, Plan, Precision, ShadeColour, ShadeLight,
-    ShadowLight, Texture, Transmits,
+    BlendKind, Dither, EdgeKind, Fill, Lines, MAX_CHANNELS, Machine, OwnPass, Plan, Precision, SetupKind,
+    ShadeColour, ShadeLight, ShadowLight, Texture, Transmits,
 };
 use rand::Rng;
 use rand::seq::IndexedRandom;
@@ -60,8 +60,14 @@ fn draw(rng: &mut Pcg64Mcg) -> Machine {
     machine.guard_bits =
         if rng.random_bool(0.1) { rng.random_range(8..=14) } else { rng.random_range(2..=6) };
     machine.tag_bits = *[0, 1, 5, 32].choose(rng).expect("four");
+    if machine.setup_kind == SetupKind::Sequenced {
+        (machine.fill, machine.edge_kind, machine.polygon.lines) = (Fill::Exact, EdgeKind::Exact, Lines::No);
+    }
     if machine.fill == Fill::Textbook {
         machine.subpixel_bits = 0;
+    }
+    if machine.fill == Fill::Textbook || machine.subpixel_bits == 0 || machine.shade.is_there() {
+        machine.polygon.lines = Lines::No; // a line has no half pixel there, or nobody who walks up
     }
     let within = |p: &mut Precision| p.vertex_fraction = p.vertex_fraction.min(p.fraction);
     within(&mut machine.z);

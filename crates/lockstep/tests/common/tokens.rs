@@ -1,6 +1,6 @@
 //! Tokens for a unit alone: such as the rest of the machine would rarely give it.
 
-use super::triangles::{random_triangle, sides};
+use super::triangles::{random_primitive, sides};
 use edgewalk_lockstep::{Direction, Interface, Port, Rig, Setting, Token, Triangles, Unit, model};
 use edgewalk_machine::{Fill, Plan};
 use edgewalk_model::DrawState;
@@ -33,7 +33,7 @@ pub fn random_tokens(plan: &Plan, unit: Unit, count: usize, rng: &mut Pcg64Mcg) 
 
 fn triangles(plan: &Plan, count: usize, rng: &mut Pcg64Mcg) -> Vec<Token> {
     let port = Triangles::new(plan);
-    (0..count).map(|_| port.pack(&random_triangle(plan, rng), rng.random())).collect()
+    (0..count).map(|_| port.pack(&random_primitive(plan, rng), rng.random())).collect()
 }
 
 /// The prims of random triangles, those that are not culled.
@@ -97,6 +97,7 @@ fn token(plan: &Plan, fields: &[Port], rng: &mut Pcg64Mcg) -> Token {
             "line_cmaj" | "line_cmin" => rng.random_range(-3..=width + 3),
             "span_x" => rng.random_range(-4..width + 4),
             "span_count" => rng.random_range(1..=9),
+            "line_y" if plan.polygon.has_lines() => rng.random_range(0..width.min(height)),
             "line_y" | "span_y" => rng.random_range(0..height),
             "line_fresh" => fresh.into(),
             "line_fence" => (fresh || plan.fill == Fill::Textbook && rng.random_bool(0.2)).into(),

@@ -1,6 +1,6 @@
 //! Triangles drawn at random, with a liking for corners.
 
-use edgewalk_machine::{Plan, PortVertex};
+use edgewalk_machine::{Plan, PortVertex, Role};
 use rand::Rng;
 use rand::seq::IndexedRandom;
 use rand_pcg::Pcg64Mcg;
@@ -30,6 +30,32 @@ pub fn random_triangle(plan: &Plan, rng: &mut Pcg64Mcg) -> [PortVertex; 3] {
     });
     corner(plan, rng, &mut triangle);
     triangle.map(|(x, y, values)| plan.raw_vertex(x, y, &values))
+}
+
+/// A triangle, or where the port takes lines often one of those.
+pub fn random_primitive(plan: &Plan, rng: &mut Pcg64Mcg) -> [PortVertex; 3] {
+    if plan.polygon.has_lines() && rng.random() { random_line(plan, rng) } else { random_triangle(plan, rng) }
+}
+
+/// A line around or on the screen: its ends as the host sends them, or now and then those of any triangle.
+fn random_line(plan: &Plan, rng: &mut Pcg64Mcg) -> [PortVertex; 3] {
+    let [from, second, to] = random_triangle(plan, rng);
+    let flat = rng.random();
+    if rng.random_bool(0.1) {
+        return plan.with_role([from, second, to], Role::Line { flat });
+    }
+    let unit = 1 << plan.subpixel_bits;
+    // On the screen's own axes a flat line has its columns where others have their lines.
+    let turned = |v: &PortVertex| if flat { (v.y(), v.x()) } else { (v.x(), v.y()) };
+    let mut ends = [from, to].map(|v| (turned(&v), v));
+    ends.sort_by_key(|((_, along), _)| *along);
+    let [((x, y), a), ((far_x, far_y), b)] = ends;
+    let at = |x: i32, y: i32, like: &PortVertex| {
+        let values: Vec<i64> = like.values().iter().copied().take(plan.channels().len()).collect();
+        let kt = plan.has_triangle_kt().then(|| i64::from(like.kt()));
+        plan.raw_vertex(x - unit / 2, y, &values.into_iter().chain(kt).collect::<Vec<_>>())
+    };
+    plan.with_role([at(x, y, &a), at(x + unit, y, &a), at(far_x, far_y, &b)], Role::Line { flat })
 }
 
 /// Columns and lines of the screen, or of the map if the machine draws it.

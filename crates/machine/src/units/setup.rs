@@ -1,6 +1,7 @@
 //! SETUP: from three vertices to edges and increments.
 
 use super::tokens;
+use crate::field::Field;
 use crate::link::Link;
 use crate::machine::{Fill, Machine};
 use crate::plan::Plan;
@@ -19,11 +20,20 @@ pub const SPEC: UnitSpec = UnitSpec {
 
 fn ports(plan: &Plan) -> Ports {
     Ports {
-        takes: Some(Link::new("tri", tokens::triangle(plan))),
+        takes: Some(if plan.is_sequenced() { words(plan) } else { Link::new("tri", tokens::triangle(plan)) }),
         gives: Some(Link::new("prim", tokens::prim(plan))),
         constants: light_pass(plan).into_iter().collect(),
         ..Ports::default()
     }
+}
+
+/// A triangle word by word. The tag is no word, so that a machine with one takes no longer.
+fn words(plan: &Plan) -> Link {
+    let (tag, words): (Vec<Field>, Vec<Field>) =
+        tokens::triangle(plan).into_iter().partition(|field| field.name == "tag");
+    let bits = words.iter().map(Field::width).max().unwrap_or(1); // never empty
+    let data = Field::count("data", bits, "x, y and the channels' values of vertex 0, 1, 2, in its low bits");
+    Link { words, ..Link::new("in", std::iter::once(data).chain(tag).collect()) }
 }
 
 events! {
@@ -34,5 +44,7 @@ events! {
     major_right = "triangles whose major edge lies right" if always;
     no_upper_part = "triangles without an upper part on the screen, n1 = 0" if always;
     no_lower_part = "triangles without a lower part on the screen, n2 = 0" if always;
+    line_flat = "lines along a row of pixels, with x and y exchanged, that have one on the screen" if |plan| plan.polygon.has_lines();
+    line_steep = "lines along a column of pixels that have one on the screen" if |plan| plan.polygon.has_lines();
     knee_on_line = "triangles of two parts whose knee lies on a line of pixel centres" if always;
 }

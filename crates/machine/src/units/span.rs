@@ -36,5 +36,6 @@ fn ports(plan: &Plan) -> Ports {
 events! {
     empty_span = "lines without a pixel" if always;
     dropped_fresh = "lines without a pixel that passed on the mark of a triangle's first line" if always;
+    line_off = "pixels of lines beside the screen" if |plan| plan.polygon.has_lines();
     scissor_cut = "spans cut by the screen at the side where they end" if always;
 }

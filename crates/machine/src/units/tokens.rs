@@ -62,7 +62,7 @@ pub fn record(plan: &Plan) -> Option<Field> {
     plan.shade.is_there().then(|| Field::count("record", bits, "record with the triangle's terms"))
 }
 
-/// A triangle at the port: three vertices, its k_t and the tag.
+/// A triangle or line at the port: three vertices, its k_t, its role and the tag.
 #[must_use]
 pub fn triangle(plan: &Plan) -> Vec<Field> {
     let position = Format::signed(plan.guard_bits + 1, plan.subpixel_bits);
@@ -74,8 +74,20 @@ pub fn triangle(plan: &Plan) -> Vec<Field> {
         fields.extend(plan.channels().iter().map(value));
     }
     fields.extend(triangle_kt(plan));
+    fields.extend(thin(plan));
     fields.extend(tag(plan));
     fields
+}
+
+/// What tells a line from a triangle, in a machine that takes lines.
+fn thin(plan: &Plan) -> Vec<Field> {
+    if !plan.polygon.has_lines() {
+        return Vec::new();
+    }
+    vec![
+        Field::count("thin", 1, "a line, a pixel wide"),
+        Field::count("flat", 1, "of a line: x and y have changed places"),
+    ]
 }
 
 /// The state and step of one edge: C, R, q, f and, unless it is the constant 2^F, M.
@@ -104,11 +116,12 @@ fn edge(plan: &Plan, edge: &str) -> Vec<Field> {
 pub fn prim(plan: &Plan) -> Vec<Field> {
     let w = plan.widths();
     let mut fields = vec![
-        Field::count("jm", w.y, "first line"),
-        Field::count("n1", w.y + 1, "lines of the upper part"),
-        Field::count("n2", w.y + 1, "lines of the lower part"),
+        Field::count("jm", w.line, "first line"),
+        Field::count("n1", w.line + 1, "lines of the upper part"),
+        Field::count("n2", w.line + 1, "lines of the lower part"),
         Field::count("major_right", 1, "the major edge is the right one"),
     ];
+    fields.extend(thin(plan));
     fields.extend(EDGES.iter().flat_map(|name| edge(plan, name)));
     for channel in plan.channels() {
         let result =
@@ -144,11 +157,12 @@ pub fn held_by_edge(plan: &Plan) -> Vec<Field> {
 pub fn line(plan: &Plan) -> Vec<Field> {
     let w = plan.widths();
     let mut fields = vec![
-        Field::count("y", w.y, "line"),
+        Field::count("y", w.line, "line"),
         Field::signed("cmaj", w.column, "first column right of the major edge"),
         Field::signed("cmin", w.column, "first column right of the minor edge"),
         Field::count("major_right", 1, "the major edge is the right one"),
     ];
+    fields.extend(thin(plan));
     fields.extend(words(plan));
     fields.extend([
         Field::count("fresh", 1, "first line of the triangle"),

@@ -23,16 +23,22 @@ impl<const C: usize> Edge<C> {
         let running = view.flag("running", "a triangle is being walked", self.running);
         view.wire(|| "running".to_owned());
         view.live(Some(running));
-        let y = view.number("y", "line on the screen", w.y, self.line.y);
+        let y = view.number("y", "line on the screen", w.line, self.line.y);
         view.wire(|| "line_y".to_owned());
-        view.number("n1", "lines left of the upper part", w.y + 1, self.remaining[0]);
+        view.number("n1", "lines left of the upper part", w.line + 1, self.remaining[0]);
         view.wire(|| "n1".to_owned());
-        view.number("n2", "lines left of the lower part", w.y + 1, self.remaining[1]);
+        view.number("n2", "lines left of the lower part", w.line + 1, self.remaining[1]);
         view.wire(|| "n2".to_owned());
         view.flag("fresh", "first line of the triangle", self.line.fresh);
         view.wire(|| "line_fresh".to_owned());
         view.flag("major_right", "the major edge is the right one", self.line.major_right);
         view.wire(|| "line_major_right".to_owned());
+        if plan.polygon.has_lines() {
+            view.flag("thin", "a line, a pixel wide", self.line.thin);
+            view.wire(|| "line_thin".to_owned());
+            view.flag("flat", "of a line: x and y have changed places", self.line.flat);
+            view.wire(|| "line_flat".to_owned());
+        }
         view.table("edges", &EdgeWalk::COLUMNS, false);
         view.row("major");
         self.major.view(plan, Some("major"), view);

@@ -5,7 +5,7 @@
 //!  a ─S1,S2─> prim p ─> line, held ─move m─> room for F ─pop o─> count·T clocks ─D─> read r ─L─> compare
 //! ```
 //! Every time is the greatest of what it waits for (max-plus), section by section of `docs/machine.md`:
-//! - 2: `a' = p + 1`, or `a + S1 + 1` if culled; `p = max(a + S1 + S2 + 1, EDGE free, first span popped + 1)`;
+//! - 2: `a' = p + w`, or `a + S1 + w` if culled, with w words of a triangle, 1 if it comes at once; `p = max(a + S1 + S2 + 1, EDGE free, first span popped + 1)`;
 //! - 3, 4: a line leaves EDGE a clock after the one before, `l`, and in the cycle in which that one moves on from SPAN's register;
 //!   it moves in `m >= l + 1`, span k and what lies between it and span k − 1 not before `o(k−F) + 1`, the cycle in which the
 //!   registered FIFO shows the room;
@@ -64,8 +64,10 @@ pub(super) struct Clock {
     latency: u64,
     drain: bool,
     inflight: Option<InFlight>,
+    /// Words of a triangle behind the first, one a cycle.
+    words: u64,
 
-    /// a: the cycle in which SETUP takes the next triangle.
+    /// a: the cycle in which SETUP takes the next triangle; before its words have come, the first of them.
     take: u64,
     /// EDGE takes a prim not before.
     edge_free: u64,
@@ -104,6 +106,7 @@ impl Clock {
             latency: u64::from(plan.latency),
             drain: plan.hazard == Hazard::Drain,
             inflight: InFlight::new(plan, depth_write),
+            words: if plan.is_sequenced() { u64::from(plan.triangle_words() - 1) } else { 0 },
             take: 0,
             edge_free: 0,
             offer: 0,
@@ -145,14 +148,28 @@ impl Clock {
         self.spend(prim + 1, Activity::Setup);
     }
 
-    /// SETUP works until it takes the next triangle, and is IDLE in that cycle.
+    /// SETUP works until it takes the next triangle, and is IDLE in that cycle, or in those of its words.
     #[inline(always)]
     fn enter_setup(&mut self) {
         self.spend(self.take, Activity::Setup);
-        if self.counted == self.take {
+        if self.words > 0 {
+            self.take += self.words;
+            self.idle_until(self.take + 1);
+        } else if self.counted == self.take {
             let flush = self.last.is_some_and(|last| self.take < last.drained(self.latency));
             self.spend(self.take + 1, if flush { Activity::Flush } else { Activity::Idle });
         }
+    }
+
+    /// Counts the cycles before `until` in which SETUP has nothing to do.
+    #[cold]
+    fn idle_until(&mut self, until: u64) {
+        while !self.fences.is_empty() && self.fences.head().arrival < until {
+            self.pass_fence(Activity::Flush);
+        }
+        let drained = self.last.map_or(0, |last| last.drained(self.latency));
+        self.spend(drained.min(until), Activity::Flush);
+        self.spend(until, Activity::Idle);
     }
 
     /// Spans of a triangle, from one fence to the next; `fresh`: its first ones.

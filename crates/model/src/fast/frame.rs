@@ -4,10 +4,10 @@ use super::clock::Clock;
 use super::passage::Passage;
 use super::picture::Picture;
 use super::pixel::Pixel;
+use super::refusal::{Reason, Refusal};
 use super::setup::Setup;
 use super::span::{DepthTest, Ramp};
 use super::walk::{Spans, Walker};
-use super::{Reason, Refusal};
 use crate::DrawState;
 use crate::counters::Counters;
 use crate::setup::SetupClocks;
@@ -99,12 +99,15 @@ impl<P: Pixel> Frame<'_, P> {
         self.clock.triangle(clocks);
         let mut walk = walker.walk(prim);
         let ramp = Ramp::new(walk.gradient);
-        let to_left = prim.major_right && !walker.textbook;
+        let to_left = prim.runs_left(walker.textbook);
         let (mut empty, mut fresh) = (0, true);
         self.counters.lines += prim.lines.iter().map(|lines| u64::from(*lines)).sum::<u64>();
         let parts = if walker.textbook { 2 } else { 1 };
         for part in 0..parts {
-            empty = walker.part(prim, part, &mut walk, &mut self.spans, empty, self.picture);
+            empty = match prim.thin {
+                true => walker.line(prim, &walk, &mut self.spans),
+                false => walker.part(prim, part, &mut walk, &mut self.spans, empty, self.picture),
+            };
             let spans = self.spans.walked();
             if spans.is_empty() {
                 continue;

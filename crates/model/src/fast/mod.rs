@@ -12,6 +12,7 @@
 //!
 //! Not modelled: [`Events`], memories that stall, channels of the user's own, BLEND, dropped fragments, TERM and SHADE.
 
+mod refusal;
 mod divide;
 mod setup;
 mod prefetch;
@@ -30,60 +31,17 @@ use crate::DrawState;
 use crate::Events;
 use crate::counters::Counters;
 use crate::frame::{Frame, render};
-use crate::memory::Stalls;
-use crate::tokens::FEW;
+use crate::waits::Stalls;
 use edgewalk_machine::{ForeignVertex, Plan, PortVertex};
 use frame::{Batch, Bring};
 pub use passage::{Fate, Passage};
 use picture::Picture;
+use refusal::refused;
+pub use refusal::{Reason, Refusal};
 use setup::Setup;
 use std::borrow::Borrow;
 use std::fmt;
 use std::ops::Range;
-
-/// Why a frame has to be ticked.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Reason {
-    /// The machine has channels of the user's own.
-    Channels,
-    /// The machine has SHADOW.
-    Shadow,
-    /// The machine blends.
-    Blend,
-    /// The machine drops fragments by a pattern.
-    ScreenDoor,
-    /// The machine shades at each pixel.
-    Shade,
-    /// The rules change between triangles.
-    Passes,
-    /// The in-flight queue is so short that it fills: `fifo.inflight` <= `memory.latency` / T.
-    Queue,
-    /// Interlock, and a fragment may have met its own address in flight.
-    Interlock,
-    /// The memory makes the machine wait.
-    Memory,
-}
-
-/// Why a frame was not drawn without ticking.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Refusal {
-    /// It has to be ticked.
-    Tick(Reason),
-    /// A triangle was made for another machine.
-    Foreign(ForeignVertex),
-}
-
-impl From<Reason> for Refusal {
-    fn from(reason: Reason) -> Self {
-        Refusal::Tick(reason)
-    }
-}
-
-impl From<ForeignVertex> for Refusal {
-    fn from(foreign: ForeignVertex) -> Self {
-        Refusal::Foreign(foreign)
-    }
-}
 
 /// How a frame was drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -236,31 +194,6 @@ where
         }
         Ok(batch.len())
     }
-}
-
-/// Why no frame of the machine can be had without ticking.
-fn refused(plan: &Plan) -> Option<Reason> {
-    if plan.blend.is_there() {
-        return Some(Reason::Blend);
-    }
-    if plan.dither.drops() {
-        return Some(Reason::ScreenDoor);
-    }
-    if plan.shadow.is_there() {
-        return Some(Reason::Shadow);
-    }
-    if plan.shade.is_there() {
-        return Some(Reason::Shade);
-    }
-    if plan.channels().len() > FEW {
-        return Some(Reason::Channels);
-    }
-    queue_fills(plan).then_some(Reason::Queue)
-}
-
-/// The queue holds at most a fragment every T clocks for L clocks; it never fills if it has room for one more.
-fn queue_fills(plan: &Plan) -> bool {
-    plan.inflight <= plan.latency / plan.clocks_per_pixel()
 }
 
 /// Draws the triangles in order, cycle by cycle if need be. Events are counted only where the frame is ticked.

@@ -7,9 +7,9 @@
 //! Which pixels a triangle has, and which of them pass the depth test, no timing key changes.
 
 use super::clock::Clock;
+use super::refusal::{Reason, Refusal, refused};
 use super::setup::Setup;
 use super::walk::Span;
-use super::{Reason, Refusal, refused};
 use crate::counters::Counters;
 use crate::setup::SetupClocks;
 use crate::tokens::Prim;

@@ -1,7 +1,7 @@
 //! SETUP's results and clocks with divisions that take a few clocks each, in 64 bits.
 //!
 //! A triangle is sorted when it is brought in, some triangles before the one that is drawn.
-//! Only for exact fill and exact edges, formats whose differences over the screen fit in 62 bits, and triangles whose
+//! Only for triangles, exact fill and exact edges, formats whose differences over the screen fit in 62 bits, and triangles whose
 //! numerators do; all else is left to the plain setup, with its 128 bits. Rules: `docs/machine.md`, section 2.
 
 use super::divide::{Divisor, Shifts};
@@ -10,7 +10,7 @@ use crate::setup::edges::{Parts, Screen};
 use crate::setup::sort::{Corner, Sorted};
 use crate::setup::{self, SetupClocks};
 use crate::tokens::{EdgeWalk, FEW, Prim, Source, per_channel, sign_extend, word_masks};
-use edgewalk_machine::{EdgeKind, Fill, Plan, PortVertex};
+use edgewalk_machine::{EdgeKind, Fill, Plan, PortVertex, Role};
 use std::array::from_fn;
 
 type Words = crate::tokens::Words<FEW>;
@@ -85,6 +85,7 @@ impl Setup {
     #[inline(always)]
     pub(super) fn increments(&self, sorted: &Sorted<FEW>, prim: &mut Prim<FEW>) -> (SetupClocks, bool) {
         if !self.plain
+            && sorted.role == Role::Triangle
             && let Ok(done) = self.short(sorted, prim)
         {
             return done;
@@ -105,14 +106,17 @@ impl Setup {
         let j1 = knee.clamp(j0, end);
         let [left, right] = self.columns([a.u, b.u, c.u]);
         if end == j0 || right <= left {
-            return Ok((self.timing.culled(), false));
+            let parts = Parts { first: [j0, j1], lines: [(j1 - j0) as u32, (end - j1) as u32] };
+            let clocks = self.of_program(sorted, &parts, prim);
+            return Ok((clocks.unwrap_or(self.timing.culled()), false));
         }
         let parts = Parts { first: [j0, j1], lines: [(j1 - j0) as u32, (end - j1) as u32] };
         let area = du1 * dv2 - du2 * dv1;
         let scale = self.timing.scale(sorted, area);
         let phase1 = self.timing.phase1(sorted, &parts, scale);
         if area == 0 {
-            return Ok((SetupClocks { phase1, phase2: 0 }, false));
+            let clocks = self.of_program(sorted, &parts, prim);
+            return Ok((clocks.unwrap_or(SetupClocks { phase1, phase2: 0 }), false));
         }
         let line = if j1 > j0 { j0 } else { j1 };
         let major_right = area < 0;
@@ -152,6 +156,8 @@ impl Setup {
         *prim = Prim {
             line: line as u32,
             lines: parts.lines,
+            thin: false, // a line is left to the plain setup
+            flat: false,
             major_right,
             major,
             minor,
@@ -169,7 +175,13 @@ impl Setup {
             source: Source::default(),
         };
         let phase2 = self.timing.phase2(sorted, &parts, prim, (area, scale));
-        Ok((SetupClocks { phase1, phase2 }, true))
+        let clocks = self.of_program(sorted, &parts, prim);
+        Ok((clocks.unwrap_or(SetupClocks { phase1, phase2 }), true))
+    }
+
+    #[inline(always)]
+    fn of_program(&self, sorted: &Sorted<FEW>, parts: &Parts, prim: &Prim<FEW>) -> Option<SetupClocks> {
+        self.timing.of_program(Screen::picture(&self.plan), sorted, parts, prim)
     }
 
     /// Top first; of equal v the earlier comes first.
@@ -188,7 +200,8 @@ impl Setup {
             values: from_fn(|i| vertex.values()[i] & self.vertex_masks[i]),
         };
         let [top, middle, bottom] = order;
-        Sorted { corners: [corner(&vertices[top]), corner(&vertices[middle]), corner(&vertices[bottom])] }
+        let corners = [corner(&vertices[top]), corner(&vertices[middle]), corner(&vertices[bottom])];
+        Sorted { corners, role: Role::of(vertices) }
     }
 
     /// k0 and k1: the first column that may have a pixel, and the first behind the last.

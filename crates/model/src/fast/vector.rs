@@ -1,10 +1,10 @@
 //! The same code for the vector instructions that this processor has.
 
-use super::Refusal;
 use super::frame::{self, Bring};
 use super::passage::Passage;
 use super::picture::Picture;
 use super::pixel::Pixel;
+use super::refusal::Refusal;
 use crate::DrawState;
 use crate::counters::Counters;
 use edgewalk_machine::Plan;

@@ -43,7 +43,8 @@ impl Spans {
     /// None of a machine's. In textbook fill the knee line is drawn twice.
     pub(super) fn new(plan: &Plan) -> Self {
         let none = Span { words: [0; FEW], pixel: 0, count: 0, skip: 0, empty: 0 };
-        Spans { room: vec![none; plan.height as usize + 2], count: 0 }
+        let lines = if plan.polygon.has_lines() { plan.width.max(plan.height) } else { plan.height };
+        Spans { room: vec![none; lines as usize + 2], count: 0 }
     }
 
     #[inline(always)]
@@ -62,6 +63,7 @@ impl Spans {
 pub(super) struct Walker {
     pub textbook: bool,
     width: i32,
+    height: i32,
     /// Bits that a column leaves free in 32.
     free: u32,
     /// Bits that a word leaves free in 64, by channel.
@@ -95,6 +97,7 @@ impl Walker {
         Walker {
             textbook: plan.fill == Fill::Textbook,
             width: plan.width as i32,
+            height: plan.height as i32,
             free: 32 - plan.widths().column,
             align: per_channel(plan, |c| 64 - c.word()),
             place: std::hint::black_box(from_fn(|i| i as i32)),
@@ -110,7 +113,7 @@ impl Walker {
     #[inline(always)]
     pub(super) fn walk(&self, prim: &Prim<FEW>) -> Walk {
         let gradient = self.aligned(&prim.gradient);
-        let to_left = prim.major_right && !self.textbook;
+        let to_left = prim.runs_left(self.textbook);
         Walk {
             to_left,
             major_right: prim.major_right,
@@ -123,6 +126,26 @@ impl Walker {
             delta: [self.aligned(&prim.delta[0]), self.aligned(&prim.delta[1])],
             gradient: if to_left { gradient.map(u64::wrapping_neg) } else { gradient },
         }
+    }
+
+    /// Walks along a line; appends a span for each of its pixels on the screen. Gives the steps without one behind the last.
+    pub(super) fn line(&self, prim: &Prim<FEW>, walk: &Walk, spans: &mut Spans) -> u32 {
+        let (mut edge, mut words, mut empty) = (prim.major, walk.words, 0);
+        let across = if prim.flat { self.height } else { self.width };
+        for along in walk.y as i32..(walk.y + prim.lines[0] + prim.lines[1]) as i32 {
+            if (0..across).contains(&edge.c) {
+                let [x, y] = if prim.flat { [along, edge.c] } else { [edge.c, along] };
+                let pixel = (y * self.width + x) as u32; // on the screen
+                let span = Span { words, pixel, count: 1, skip: 0, empty };
+                spans.room.get_mut(spans.count).into_iter().for_each(|room| *room = span); // there is room: see `Spans`
+                (spans.count, empty) = (spans.count + 1, 0);
+            } else {
+                empty += 1;
+            }
+            let carry = edge.step(32 - self.free);
+            words = from_fn(|c| words[c].wrapping_add(walk.delta[usize::from(carry)][c]));
+        }
+        empty
     }
 
     /// Walks down all lines of a triangle or, in textbook fill, a part, 0 or 1; appends their spans. `empty`: lines without a

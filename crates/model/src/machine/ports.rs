@@ -1,9 +1,9 @@
 //! What the units inside the machine show at their ports in a cycle.
 
-use super::{Inputs, Model};
+use super::Model;
+use crate::io::Inputs;
 use crate::ports::{Held, Pins, Ported, Shown};
 use crate::word_memory::WordIn;
-use edgewalk_machine::DrawState;
 
 /// Where the units of a machine show their outputs.
 pub trait ShownUnits {
@@ -19,7 +19,9 @@ pub trait ShownUnits {
 impl<const C: usize> Model<C> {
     /// Shows the outputs of every unit in a cycle with these inputs, before the clock edge.
     pub fn show(&self, inputs: &Inputs, out: &mut impl ShownUnits) {
-        let (wires, pipe) = (self.wires(inputs), self.pipe());
+        let (mut offers, pipe) = (self.no_offers(), self.pipe());
+        let wires = self.wires(inputs, &mut offers);
+        let made = &offers.made;
         let state = inputs.state();
         let held = Held { gradient: *self.edge.gradient(), kt: self.edge.kt(), record: self.edge.record() };
         let fresh_queued = self.span.fresh_queued();
@@ -35,9 +37,9 @@ impl<const C: usize> Model<C> {
         self.pixel
             .show(&Pins { next: wires.ready(0), held, state, ..Pins::default() }, &mut out.unit("pixel"));
         for (place, stage) in pipe.iter().enumerate() {
-            stage.show(&self.links(&wires, place), inputs, state, &mut out.unit(stage.name));
+            stage.show(&self.links(&wires, made, place), inputs, state, &mut out.unit(stage.name));
         }
-        let token = self.given(&wires, pipe.len()).map(|given| given.frag);
+        let token = self.given(made, pipe.len()).map(|given| given.frag);
         let word = WordIn { ready: inputs.rd_ready, word: inputs.data.map(u128::from) };
         let next = if self.blend().is_some() { wires.pass_ready } else { inputs.wr_ready };
         let pins = Pins { token, next, write: inputs.wr_ready, word, state, ..Pins::default() };
@@ -46,22 +48,6 @@ impl<const C: usize> Model<C> {
             let (token, next) = (self.depth.pass(), inputs.blend.cwr_ready);
             let word = WordIn { ready: inputs.blend.crd_ready, word: inputs.blend.cdata.map(u128::from) };
             blend.show(&Pins { token, next, word, state, ..Pins::default() }, &mut out.unit("blend"));
-        }
-    }
-}
-
-impl Inputs<'_> {
-    /// The constants.
-    fn state(&self) -> DrawState {
-        DrawState {
-            depth_func: self.depth_func,
-            depth_write: self.depth_write,
-            shadow_on: self.shadow.on,
-            light_pass: self.shadow.light_pass,
-            ambient: self.shadow.ambient.into(),
-            color_write: self.blend.color_write,
-            blend_add: self.blend.add,
-            clear: [0; 3],
         }
     }
 }

@@ -1,6 +1,7 @@
 //! What is to be seen of the machine: its units one after the other, with the links between them.
 
-use super::{Inputs, Model};
+use super::Model;
+use crate::io::Inputs;
 use crate::view::View;
 use edgewalk_machine::Plan;
 
@@ -9,7 +10,9 @@ impl<const C: usize> Model<C> {
     pub fn view(&self, plan: &Plan, inputs: &Inputs, view: &mut View) {
         view.begin(inputs.shadow.light_pass);
         let Model { setup, edge, span, pixel, depth, .. } = self;
-        let wires = self.wires(inputs);
+        let mut offers = self.no_offers();
+        let wires = self.wires(inputs, &mut offers);
+        let made = &offers.made;
         let fresh_queued = span.fresh_queued();
         let line = edge.line();
         setup.view(inputs.tri, edge.prim_ready(fresh_queued), view);
@@ -22,9 +25,9 @@ impl<const C: usize> Model<C> {
         let pipe = self.pipe();
         for (place, stage) in pipe.iter().enumerate() {
             let behind = pipe.get(place + 1).map_or("depth", |stage| stage.name);
-            stage.view(plan, &self.links(&wires, place), behind, inputs, view);
+            stage.view(plan, &self.links(&wires, made, place), behind, inputs, view);
         }
-        let seen = self.given(&wires, pipe.len());
+        let seen = self.given(made, pipe.len());
         depth.view(plan, seen.map(|given| given.frag), &wires.depth_inputs(inputs), view);
         if let Some(blend) = self.blend() {
             blend.view(plan, depth.pass(), &inputs.blend, view);
@@ -32,6 +35,6 @@ impl<const C: usize> Model<C> {
         if plan.shadow.draws_map() {
             view.pages();
         }
-        view.cause(self.activity(&wires));
+        view.cause(self.activity(&wires, made));
     }
 }

@@ -1,7 +1,7 @@
 //! First values and increments of every channel: exact divisions, rounded once, kept modulo 2^(b+r).
 
 use super::edges::Parts;
-use super::round_div;
+use super::round::round_div;
 use super::sort::{Corner, Sorted};
 use crate::tokens::{Prim, word_masks};
 use edgewalk_machine::{Channel, Fill, Plan};

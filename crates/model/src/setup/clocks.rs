@@ -2,7 +2,8 @@
 //!
 //! Rules: `docs/machine.md`, section 2, "Pairs". All that is the same for every triangle is added up once, in [`Timing`].
 
-use super::edges::Parts;
+use super::edges::{Parts, Screen};
+use super::sequenced::ProgramClocks;
 use super::sort::{Corner, Sorted};
 use crate::tokens::{MAX_CHANNELS, Prim};
 use edgewalk_machine::{EdgeKind, Fill, Plan};
@@ -11,9 +12,9 @@ use std::array::from_fn;
 /// Clocks of a triangle in SETUP.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct SetupClocks {
-    /// S1: edges, area, cull.
+    /// S1: edges, area, cull; of a sequenced SETUP S, all of it.
     pub phase1: u32,
-    /// S2: the channels; 0 of a triangle that is culled.
+    /// S2: the channels; 0 of a triangle that is culled, and of a sequenced SETUP.
     pub phase2: u32,
 }
 
@@ -77,6 +78,8 @@ pub(crate) struct Timing {
     /// Clocks for taking in DX, if not all of them fit.
     long: u32,
     rounds: Vec<Round>,
+    /// Of a sequenced SETUP, for which nothing else here counts.
+    program: Option<ProgramClocks>,
 }
 
 impl Timing {
@@ -117,7 +120,21 @@ impl Timing {
             edges: (t + fraction).div_ceil(2) + 2 + 2 + rounding,
             long: long(w.difference - 1),
             rounds,
+            program: plan.is_sequenced().then(|| ProgramClocks::new(plan)),
         }
+    }
+
+    /// S of a triangle, if SETUP is sequenced; `prim` has its edges, unless it is culled.
+    #[inline(always)]
+    pub(crate) fn of_program<const C: usize>(
+        &self,
+        screen: Screen,
+        sorted: &Sorted<C>,
+        parts: &Parts,
+        prim: &Prim<C>,
+    ) -> Option<SetupClocks> {
+        let program = self.program.as_ref()?;
+        Some(SetupClocks { phase1: program.clocks(screen, sorted, parts, prim), phase2: 0 })
     }
 
     /// Of a triangle that is culled by lines or columns.
@@ -216,6 +233,9 @@ impl Timing {
 
     /// Of a triangle none of whose numbers fits, and whose factors are as long as their formats.
     fn longest(&self) -> SetupClocks {
+        if let Some(program) = &self.program {
+            return SetupClocks { phase1: program.longest(), phase2: 0 };
+        }
         let edge_rounds = 3usize.div_ceil(self.lanes) as u32;
         let unsigned = self.difference - 1;
         let scale = |round: &Round| round.bits / 2 + 1;

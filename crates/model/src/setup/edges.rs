@@ -1,9 +1,9 @@
 //! Which lines a triangle draws, and how its edges walk over them.
 
-use super::round_div;
+use super::round::round_div;
 use super::sort::{Corner, Sorted};
 use crate::tokens::{EdgeWalk, sign_extend};
-use edgewalk_machine::{EdgeKind, Fill, Plan};
+use edgewalk_machine::{EdgeKind, Fill, Plan, Role};
 
 /// What is drawn of the plane: columns and lines from 0 on.
 #[derive(Clone, Copy, Debug)]
@@ -22,6 +22,21 @@ impl Screen {
     pub(crate) fn of_pass(plan: &Plan, light_pass: bool) -> Self {
         let size = plan.shadow.size.into();
         if light_pass { Screen { width: size, height: size } } else { Screen::picture(plan) }
+    }
+
+    /// The same as a triangle or line of this role has it: x and y of a flat line are exchanged.
+    fn of_role(self, role: Role) -> Self {
+        match role {
+            Role::Line { flat: true } => Screen { width: self.height, height: self.width },
+            _ => self,
+        }
+    }
+}
+
+impl Screen {
+    /// The first column at or right of each corner, cut to the screen.
+    pub(super) fn columns<const C: usize>(self, t: u32, sorted: &Sorted<C>) -> [i64; 3] {
+        [0, 1, 2].map(|i| (-(-sorted.corners[i].u >> t)).clamp(0, self.width)) // rounded up
     }
 }
 
@@ -45,7 +60,7 @@ impl Parts {
 /// Lines of both parts (section 2), cut to the screen.
 pub(super) fn parts<const C: usize>(plan: &Plan, screen: Screen, sorted: &Sorted<C>) -> Parts {
     let t = plan.widths().center_fraction;
-    let height = screen.height;
+    let height = screen.of_role(sorted.role).height;
     let v = sorted.corners.map(|c| c.v);
     match plan.fill {
         Fill::Exact => {
@@ -67,12 +82,12 @@ pub(super) fn parts<const C: usize>(plan: &Plan, screen: Screen, sorted: &Sorted
     }
 }
 
-/// No column of pixel centres lies between the smallest and the largest u on the screen; only asked in exact fill.
+/// No column of pixel centres lies between the smallest and the largest u on the screen; only asked of triangles in exact fill.
 pub(super) fn no_columns<const C: usize>(plan: &Plan, screen: Screen, sorted: &Sorted<C>) -> bool {
     let t = plan.widths().center_fraction;
     let [a, b, c] = sorted.corners.map(|c| -(-c.u >> t)); // rounded up
     let (k0, k1) = (a.min(b).min(c).max(0), a.max(b).max(c).min(screen.width));
-    plan.fill == Fill::Exact && k1 <= k0
+    plan.fill == Fill::Exact && sorted.role == Role::Triangle && k1 <= k0
 }
 
 /// The edge from `a` down to `b`, as it stands on line `j`, its first of `lines`. Where it has none it is not walked: its

@@ -13,10 +13,12 @@
 //! Rules: `docs/machine.md`, section 2. Not modelled: the lanes bit by bit; all is computed when the triangle arrives
 //! and appears when the hardware would have it.
 
+mod round;
 pub(crate) mod sort;
 pub(crate) mod edges;
 mod channels;
 pub(crate) mod clocks;
+mod sequenced;
 mod schedule;
 pub mod sequencer;
 mod view;
@@ -27,9 +29,9 @@ use crate::Events;
 use crate::ports::{Pins, Ported, Shown};
 use crate::tokens::{FEW, Prim, Source};
 use clocks::Timing;
-use edges::Screen;
-use edgewalk_machine::{Plan, PortVertex};
-use sort::{Corner, Sorted};
+use edges::{Parts, Screen};
+use edgewalk_machine::{Plan, PortVertex, Role};
+use sort::Sorted;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum State {
@@ -62,6 +64,10 @@ pub struct Setup<const C: usize> {
     taken: u32,
     /// With TERM: the number of the last triangle since reset, -1 before the first.
     record: u32,
+    /// Words of a triangle at the port: 1 where it comes at once.
+    words: u32,
+    /// Words taken of the triangle that comes.
+    come: u32,
 }
 
 impl<const C: usize> Setup<C> {
@@ -79,9 +85,11 @@ impl<const C: usize> Setup<C> {
             culled: false,
             clocks: SetupClocks::default(),
             prim: Prim::default(),
-            sorted: Box::new(Sorted { corners: [Corner { u: 0, v: 0, values: [0; C] }; 3] }),
+            sorted: Box::new(Sorted::default()),
             taken: 0,
             record: u32::MAX,
+            words: if plan.is_sequenced() { plan.triangle_words() } else { 1 },
+            come: 0,
         }
     }
 
@@ -90,13 +98,21 @@ impl<const C: usize> Setup<C> {
         self.state = State::Idle;
         self.remaining = 0;
         self.record = u32::MAX;
+        self.come = 0;
     }
 
-    /// A triangle can be taken: the unit is IDLE.
+    /// A triangle, or a word of one, can be taken: the unit is IDLE.
     #[inline]
     #[must_use]
     pub fn tri_ready(&self) -> bool {
         self.state == State::Idle
+    }
+
+    /// A triangle is taken in this cycle, if one is offered: with its last word.
+    #[inline]
+    #[must_use]
+    pub fn takes(&self, offered: bool) -> bool {
+        offered && self.tri_ready() && self.come + 1 == self.words
     }
 
     /// The triangle offered to EDGE.
@@ -113,7 +129,7 @@ impl<const C: usize> Setup<C> {
         self.clocks
     }
 
-    /// Clock edge.
+    /// Clock edge, with a triangle offered or none; where it comes word by word with one of its words.
     #[inline(always)]
     pub fn step(
         &mut self,
@@ -132,15 +148,32 @@ impl<const C: usize> Setup<C> {
         match self.state {
             State::Idle => {
                 if let Some((vertices, tag)) = tri {
+                    self.come += 1;
+                    if self.come < self.words {
+                        return;
+                    }
+                    self.come = 0;
                     self.screen = Screen::of_pass(&self.plan, light_pass);
                     self.take(vertices, tag, events);
                 }
             }
             State::Phase1 if self.culled => self.state = State::Idle,
+            State::Phase1 if self.clocks.phase2 == 0 => self.state = State::Done, // sequenced: WORK is over
             State::Phase1 => self.enter(State::Phase2, self.clocks.phase2),
             State::Phase2 => self.state = State::Done,
             State::Done => self.state = State::Idle,
         }
+    }
+
+    /// Not hardware: an idle unit takes a triangle and works until it offers it, or has culled it.
+    pub fn run(&mut self, triangle: &[PortVertex; 3], events: &mut Events) -> Option<Prim<C>> {
+        let mut offered = Some((triangle, 0));
+        while offered.is_some() || (self.prim().is_none() && !self.tri_ready()) {
+            let takes = self.takes(offered.is_some());
+            self.step(offered, false, false, events);
+            offered = offered.filter(|_| !takes);
+        }
+        self.prim().copied()
     }
 
     fn enter(&mut self, state: State, cycles: u32) {
@@ -179,6 +212,10 @@ impl<const C: usize> Setup<C> {
         events.setup.major_left += u64::from(!self.prim.major_right);
         events.setup.no_upper_part += u64::from(n1 == 0);
         events.setup.no_lower_part += u64::from(n2 == 0);
+        if let Role::Line { flat } = sorted.role {
+            events.setup.line_flat += u64::from(flat);
+            events.setup.line_steep += u64::from(!flat);
+        }
         events.setup.knee_on_line += u64::from(n1 > 0 && n2 > 0 && knee % p == 0);
     }
 }
@@ -224,6 +261,24 @@ pub(crate) fn prepare<const C: usize>(
     prim: &mut Prim<C>,
 ) -> (SetupClocks, Option<Culled>) {
     let parts = edges::parts(plan, screen, sorted);
+    let (clocks, culled) = found(plan, timing, screen, sorted, &parts, prim);
+    let Some(clocks) = timing.of_program(screen, sorted, &parts, prim) else { return (clocks, culled) };
+    for (edge, lines) in prim.minor.iter_mut().zip(parts.lines) {
+        // The program leaves out what is not walked.
+        edge.m = if lines == 0 { 0 } else { edge.m };
+    }
+    (clocks, culled)
+}
+
+/// The same with the clocks of a parallel SETUP.
+fn found<const C: usize>(
+    plan: &Plan,
+    timing: &Timing,
+    screen: Screen,
+    sorted: &Sorted<C>,
+    parts: &Parts,
+    prim: &mut Prim<C>,
+) -> (SetupClocks, Option<Culled>) {
     if parts.lines == [0, 0] {
         return (timing.culled(), Some(Culled::Lines));
     }
@@ -232,7 +287,7 @@ pub(crate) fn prepare<const C: usize>(
     }
     let area = sorted.area();
     let scale = timing.scale(sorted, area);
-    let phase1 = timing.phase1(sorted, &parts, scale);
+    let phase1 = timing.phase1(sorted, parts, scale);
     if area == 0 {
         return (SetupClocks { phase1, phase2: 0 }, Some(Culled::Area));
     }
@@ -241,23 +296,16 @@ pub(crate) fn prepare<const C: usize>(
     *prim = Prim {
         line: parts.drawn() as u32, // first drawn line, 0 <= jm < H
         lines: parts.lines,
+        thin: sorted.role != Role::Triangle,
+        flat: sorted.role == Role::Line { flat: true },
         major_right: area < 0,
         major: edges::walk(plan, a, c, parts.drawn(), n1 + n2),
         minor: [edges::walk(plan, a, b, j0, n1), edges::walk(plan, b, c, j1, n2)],
         ..Prim::default()
     };
-    channels::prepare(plan, sorted, &parts, prim);
-    let phase2 = timing.phase2(sorted, &parts, prim, (area, scale));
+    channels::prepare(plan, sorted, parts, prim);
+    let phase2 = timing.phase2(sorted, parts, prim, (area, scale));
     (SetupClocks { phase1, phase2 }, None)
-}
-
-/// floor(n/d + 1/2), d > 0: RN. Most numbers fit in 64 bits, whose division takes the host a fraction of the time.
-fn round_div(n: i128, d: i128) -> i128 {
-    let n = n + d / 2;
-    match (i64::try_from(n), i64::try_from(d)) {
-        (Ok(n), Ok(d)) => n.div_euclid(d).into(),
-        _ => n.div_euclid(d),
-    }
 }
 
 impl<const C: usize> Ported<C> for Setup<C> {

@@ -38,11 +38,12 @@ pub(crate) enum Job {
     DoubleH,
     RoundStart,
     Behind,
+    Program,
 }
 
 impl Job {
     /// Their names, in their order.
-    pub const NAMES: [&'static str; 27] = [
+    pub const NAMES: [&'static str; 28] = [
         "-",
         "look",
         "subtract",
@@ -70,10 +71,11 @@ impl Job {
         "double",
         "round",
         "behind",
+        "program",
     ];
 
     /// What each does, in a sentence.
-    pub const SAYS: [&'static str; 27] = [
+    pub const SAYS: [&'static str; 28] = [
         "",
         "looks whether any line and column of the screen lies in the triangle",
         "subtracts the vertices: the lanes get DX and DY of the edges",
@@ -101,6 +103,7 @@ impl Job {
         "doubles it",
         "rounds, with the upper end's value: start",
         "the last results come out of the lanes",
+        "executes its program, a word a clock: edges, area, then the channels",
     ];
 }
 

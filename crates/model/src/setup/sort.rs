@@ -1,6 +1,6 @@
 //! Vertices in centre coordinates, sorted from top to bottom.
 
-use edgewalk_machine::{Channel, Fill, Plan, PortVertex};
+use edgewalk_machine::{Channel, Fill, Plan, PortVertex, Role};
 
 /// A vertex in centre coordinates.
 #[derive(Clone, Copy, Debug)]
@@ -17,11 +17,12 @@ pub(crate) struct Corner<const C: usize> {
 #[derive(Clone, Debug)]
 pub(crate) struct Sorted<const C: usize> {
     pub corners: [Corner<C>; 3],
+    pub role: Role,
 }
 
 impl<const C: usize> Default for Sorted<C> {
     fn default() -> Self {
-        Sorted { corners: [Corner { u: 0, v: 0, values: [0; C] }; 3] }
+        Sorted { corners: [Corner { u: 0, v: 0, values: [0; C] }; 3], role: Role::Triangle }
     }
 }
 
@@ -29,7 +30,7 @@ impl<const C: usize> Sorted<C> {
     pub(crate) fn new(plan: &Plan, vertices: &[PortVertex; 3]) -> Self {
         let mut corners = vertices.map(|v| corner(plan, &v));
         corners.sort_by_key(|c| c.v); // stable
-        Sorted { corners }
+        Sorted { corners, role: Role::of(vertices) }
     }
 
     /// Twice the area with its sign, 2^-2t px²; negative: the major edge 0-2 lies right.

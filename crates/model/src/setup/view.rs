@@ -9,6 +9,7 @@ use edgewalk_machine::units::tokens::{EDGES, results};
 use edgewalk_machine::{Fill, PortVertex};
 
 const STATES: [&str; 4] = ["IDLE", "PHASE1", "PHASE2", "DONE"];
+const SEQUENCED_STATES: [&str; 4] = ["IDLE", "WORK", "-", "DONE"];
 
 impl<const C: usize> Setup<C> {
     /// Shows the unit in a cycle with these inputs.
@@ -16,16 +17,29 @@ impl<const C: usize> Setup<C> {
         view.unit(&self.plan, "setup");
         let idle = self.state == State::Idle;
         view.triangle((!idle).then(|| self.taken.wrapping_sub(1)));
-        let state = view.code("state", "what the unit is at", &STATES, self.state as usize);
+        let states = if self.plan.is_sequenced() { &SEQUENCED_STATES } else { &STATES };
+        let state = view.code("state", "what the unit is at", states, self.state as usize);
         view.phase(state);
         let job = self.view_job(view);
         self.view_corners(view);
         self.view_edges(view);
         self.view_channels(view);
-        view.note("the lanes bit by bit are not modelled: a result appears when the hardware would have it");
+        if self.plan.is_sequenced() {
+            view.number("words_taken", "of the triangle that comes", 16, self.come);
+            view.note("the words of the program are not modelled: only their number, and what they give");
+        } else {
+            view.note(
+                "the lanes bit by bit are not modelled: a result appears when the hardware would have it",
+            );
+        }
 
         let done = self.state == State::Done;
-        view.says(idle && tri.is_some(), "takes a triangle and sorts its vertices from top to bottom.");
+        let last = self.come + 1 == self.words;
+        view.says(
+            idle && tri.is_some() && last,
+            "takes a triangle and sorts its vertices from top to bottom.",
+        );
+        view.says(idle && tri.is_some() && !last, "takes a word of a triangle.");
         for (number, text) in Job::SAYS.iter().enumerate().skip(1) {
             view.says(job == number, &format!("clock {{clock}} of {{clocks}}: {text}."));
         }
@@ -36,7 +50,7 @@ impl<const C: usize> Setup<C> {
             done && !prim_ready,
             "waits with the triangle: EDGE walks, or PIXEL has not taken the increments of the one before.",
         );
-        view.takes("tri", tri.is_some(), idle);
+        view.takes(if self.plan.is_sequenced() { "in" } else { "tri" }, tri.is_some(), idle);
         view.gives("prim", Some("edge"), done, prim_ready);
         view.step("triangle", 't');
     }
@@ -68,6 +82,9 @@ impl<const C: usize> Setup<C> {
     }
 
     pub(super) fn jobs(&self) -> Schedule {
+        if self.plan.is_sequenced() {
+            return Schedule([vec![(Job::Program, self.clocks.phase1)], Vec::new()]);
+        }
         let parts = parts(&self.plan, self.screen, &self.sorted);
         let at_once = parts.lines == [0, 0] || no_columns(&self.plan, self.screen, &self.sorted);
         schedule(&self.plan, &self.sorted, &parts, at_once, &self.prim)
@@ -107,9 +124,13 @@ impl<const C: usize> Setup<C> {
         let known = matches!(self.state, State::Phase2 | State::Done);
         let live = view.guard("edges_known", "phase 1 is over", known);
         view.live(Some(live));
-        view.number("jm", "first line", w.y, prim.line);
-        view.number("n1", "lines of the upper part", w.y + 1, prim.lines[0]);
-        view.number("n2", "lines of the lower part", w.y + 1, prim.lines[1]);
+        view.number("jm", "first line", w.line, prim.line);
+        view.number("n1", "lines of the upper part", w.line + 1, prim.lines[0]);
+        view.number("n2", "lines of the lower part", w.line + 1, prim.lines[1]);
+        if plan.polygon.has_lines() {
+            view.flag("thin", "a line, a pixel wide", prim.thin);
+            view.flag("flat", "of a line: x and y have changed places", prim.flat);
+        }
         view.flag("major_right", "the major edge is the right one", prim.major_right);
         view.table("edges", &EdgeWalk::COLUMNS, false);
         for (name, edge) in EDGES.into_iter().zip([&prim.major, &prim.minor[0], &prim.minor[1]]) {

@@ -35,7 +35,8 @@ impl<const C: usize> Shadow<C> {
         let texel = frag.filter(|_| read.is_some());
         let [tx, ty, d] = [0, 1, 2].map(|axis| texel.map_or(0, |frag| self.coordinate(frag, axis)));
         let side = self.side + 1;
-        let seen = self.shaded(inputs, map);
+        let mut made = Fragment::default();
+        let seen = self.shaded(inputs, map, &mut made).then_some(made);
         let compares = seen.is_some() && head.is_some_and(|head| !head.known);
         view.table("looked up in this cycle", &["tx", "ty", "d"], false);
         view.row("frag");

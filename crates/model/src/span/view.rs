@@ -15,7 +15,7 @@ impl<const C: usize> Span<C> {
         let holds = view.flag("line_held", "a line stands before the FIFO", held.is_some());
         view.wire(|| "line_held".to_owned());
         view.live(Some(holds));
-        view.number("held_y", "its line", plan.widths().y, held.map_or(0, |line| line.y));
+        view.number("held_y", "its line", plan.widths().line, held.map_or(0, |line| line.y));
         view.wire(|| "held_y".to_owned());
         view.live(None);
         let count = view.number("queued", "spans in the FIFO", bits, self.fifo.len() as u64);

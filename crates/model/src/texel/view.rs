@@ -44,7 +44,7 @@ impl<const C: usize> Texel<C> {
         }
         view.lane(queued, self.occupied());
 
-        let offers = self.textured(textures).is_some();
+        let offers = self.offers(textures);
         view.says(read.is_some() && textures.ready, "takes a fragment and reads its texel, {texel}.");
         view.says(read.is_some() && !textures.ready, "waits: the memory of the textures takes no read.");
         view.says(frag.is_some() && self.full(), "is full: {queued} fragments wait.");

@@ -1,6 +1,7 @@
 //! What there is to be seen: units with their registers, links between them, what is said and shown of them.
 
-use super::Id;
+/// Number of a register: its place among the values of a cycle.
+pub type Id = usize;
 
 /// How the bits of a register are read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -1,6 +1,6 @@
 //! Tokens, each kept once: registers and queues hold their numbers.
 
-use super::{Field, Shape};
+use super::structure::{Field, Shape};
 use std::collections::HashMap;
 
 /// A kind of token, and every one of it that was met.

@@ -31,7 +31,8 @@ pub(super) fn activity<'m>(m: &'m Module, units: &Joined<'m>) -> Signal<'m> {
     let texel = own_doing("texel_full", "textured");
     let waits = texel.map_or(waits, |texel| texel.mux(cause(Activity::Texel), waits));
     let lower = in_flight.mux(flush, idle);
-    let lower = (!units.ready_for("tri")).mux(setup, lower);
+    let source = units.source();
+    let lower = (!units.ready_for(source)).mux(setup, lower);
     let lines = units.valid("span") | units.any("line_held") | units.valid("line");
     let lower = lines.mux(edge, lower);
     let lower = units.find("term_wait").map_or(lower, |no| no.mux(cause(Activity::Term), lower));

@@ -104,6 +104,11 @@ impl<'m> Joined<'m> {
         }
     }
 
+    /// Name of the link by which triangles come: that of the first unit.
+    pub fn source(&self) -> &'static str {
+        self.0.first().map_or("", |first| first.outside.takes_link().name)
+    }
+
     /// Valid of the link that a unit gives under that name.
     pub fn valid(&self, link: &str) -> Signal<'m> {
         self.unit(|unit| unit.outside.gives_link().name == link).output(&format!("{link}_valid"))

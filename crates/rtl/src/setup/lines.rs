@@ -5,6 +5,7 @@ use edgewalk_netlist::{Module, Reg, Signal};
 
 use super::area::Area;
 use super::control::Control;
+use super::role::Role;
 use super::sort::Vertices;
 use crate::light_pass::LightPass;
 use crate::wires::Registers;
@@ -14,33 +15,48 @@ pub(super) struct Screen<'a, 'm> {
     pub m: &'m Module,
     pub plan: &'a Plan,
     pub light_pass: LightPass<'m>,
+    /// With lines.
+    pub role: Option<Role<'m>>,
 }
 
 impl<'m> Screen<'_, 'm> {
     /// W - 1 columns, 2^-t px.
     fn last_column(&self, bits: u32) -> Signal<'m> {
         let t = self.plan.widths().center_fraction;
-        self.number(bits, self.plan.width, |side| (side - 1) << t)
+        self.number(bits, self.columns(), |side| (side - 1) << t)
     }
 
     /// H - 1 lines, 2^-t px.
     fn last_center(&self, bits: u32) -> Signal<'m> {
         let t = self.plan.widths().center_fraction;
-        self.number(bits, self.plan.height, |side| (side - 1) << t)
+        self.number(bits, self.lines(), |side| (side - 1) << t)
     }
 
     /// H - 1.
     fn last_line(&self, bits: u32) -> Signal<'m> {
-        self.number(bits, self.plan.height, |side| side - 1)
+        self.number(bits, self.lines(), |side| side - 1)
     }
 
     /// H.
     fn height(&self, bits: u32) -> Signal<'m> {
-        self.number(bits, self.plan.height, |side| side)
+        self.number(bits, self.lines(), |side| side)
     }
 
-    fn number(&self, bits: u32, side: u32, of: impl Fn(u128) -> u128) -> Signal<'m> {
-        self.light_pass.number(self.m, bits, of(side.into()), of(self.plan.shadow.size.into()))
+    /// W, and of a flat line H.
+    fn columns(&self) -> [u32; 2] {
+        [self.plan.width, self.plan.height]
+    }
+
+    /// H, and of a flat line W.
+    fn lines(&self) -> [u32; 2] {
+        [self.plan.height, self.plan.width]
+    }
+
+    /// A number of a side of the screen: as it is, and of a flat line.
+    fn number(&self, bits: u32, [side, flat]: [u32; 2], of: impl Fn(u128) -> u128) -> Signal<'m> {
+        let picture = self.m.lit(bits, of(side.into()));
+        let picture = self.role.map_or(picture, |role| role.flat.mux(of(flat.into()), picture));
+        self.light_pass.choose(picture, || self.m.lit(bits, of(self.plan.shadow.size.into())))
     }
 }
 
@@ -149,6 +165,8 @@ fn exact<'m>(
     n1.set((j1 - j0).trunc(n1.q().width()));
     n2.set((end - j1).trunc(n2.q().width()));
     let outside = no_column(screen, vertices);
+    // A line may have a pixel beside all of its vertices' columns: SPAN drops what lies off the screen.
+    let outside = screen.role.map_or(outside, |role| outside & !role.thin);
     let outside = m.reg("no_column", 1).doc("no column of the screen").set(outside).q();
     control.feedback.nothing.drive(j0.eq(end) | outside);
     (j0, j1)

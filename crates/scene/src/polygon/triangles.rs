@@ -26,7 +26,7 @@ pub struct CrossingEdges {
     pub y: f64,
 }
 
-/// A frame's triangles, with more of them for its polygons.
+/// A frame's triangles, with more of them for its polygons; without its lines.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Triangulated<'a> {
     /// Each polygon replaced by triangles at its place.
@@ -42,7 +42,7 @@ impl Frame {
     /// # Errors
     /// A polygon whose snapped edges cross.
     pub fn triangulated(&self, subpixel_bits: u32) -> Result<Triangulated<'_>, CrossingEdges> {
-        if self.polygons.is_empty() {
+        if self.polygons.is_empty() && self.lines.is_empty() {
             let ids = (0..).take(self.triangles.len()).collect();
             return Ok(Triangulated { triangles: Cow::Borrowed(&self.triangles), ids });
         }
@@ -59,6 +59,8 @@ impl Frame {
                     let parts = polygon.triangles(subpixel_bits)?;
                     triangles.extend(parts.into_iter().map(|part| Triangle(part.0.map(colored))));
                 }
+                // It stays a line.
+                Primitive::Line(_) => {}
             }
             ids.resize(triangles.len(), id);
         }

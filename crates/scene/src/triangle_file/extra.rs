@@ -47,9 +47,10 @@ pub(super) fn missing(place: Place, before: &[u8], count: usize, line: usize) ->
     place.fault("X", before, why).into()
 }
 
-/// A polygon in a file that has such values.
+/// A polygon or line in a file that has such values.
 pub(super) fn polygon(place: Place, key: &str, count: usize) -> InputError {
-    let why = format!("polygons have no `X`; permitted with `extra {count}`: only triangles");
+    let what = if key == "S" { "lines" } else { "polygons" };
+    let why = format!("{what} have no `X`; permitted with `extra {count}`: only triangles");
     place.fault("line starts with", key.as_bytes(), why).into()
 }
 

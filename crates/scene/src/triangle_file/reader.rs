@@ -5,9 +5,9 @@ use super::rules;
 use super::shading::{self, Header};
 use super::shadow::{occluder, shadow};
 use super::texture;
-use super::vertices::{contour, triangle};
+use super::vertices::{contour, ends, triangle};
 use crate::error::InputError;
-use crate::frame::{Frame, MAX_LIGHTS, MAX_SIDE, Polygon};
+use crate::frame::{Frame, Line, MAX_LIGHTS, MAX_SIDE, Polygon};
 use crate::kind::InputKind;
 use crate::rules::State;
 use crate::text::{Lines, Place, words};
@@ -19,7 +19,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 /// Every word a line may start with.
-const KEYS: [&str; 23] = [
+const KEYS: [&str; 24] = [
     "size",
     "mode",
     "view",
@@ -43,11 +43,12 @@ const KEYS: [&str; 23] = [
     "UV",
     "P",
     "H",
+    "S",
 ];
 const SIZE: usize = 0;
 /// `depth` to `clear_depth`: also permitted between triangles.
 const RULES: Range<usize> = 9..15;
-/// `T` to `H`: the header has ended.
+/// `T` to `S`: the header has ended.
 const PRIMITIVE: usize = 17;
 
 /// Opens the file at `path`, which may be a pipe; `-` is the standard input.
@@ -80,7 +81,7 @@ pub fn parse(file: &str, input: impl BufRead) -> Result<Frame, InputError> {
 
 /// A file triangle by triangle: takes as much memory as its longest line.
 ///
-/// An item is a triangle, or an error; there is nothing worth reading after that. A polygon, and `shadow` or
+/// An item is a triangle, or an error; there is nothing worth reading after that. A polygon, a line, and `shadow` or
 /// other rules behind a triangle, are [`InputError::NeedsWhole`].
 pub struct Reader<R> {
     lines: Lines<R>,
@@ -140,6 +141,9 @@ impl<R: BufRead> Iterator for Reader<R> {
         loop {
             if !self.parser.frame.polygons.is_empty() {
                 return Some(Err(self.needs_whole("P")));
+            }
+            if !self.parser.frame.lines.is_empty() {
+                return Some(Err(self.needs_whole("S")));
             }
             if let Some(shading) = &self.parser.frame.shading {
                 return Some(Err(self.needs_whole(shading.method.name())));
@@ -267,8 +271,9 @@ impl Parser {
         words: impl Iterator<Item = &'a [u8]>,
     ) -> Result<(), InputError> {
         let after = self.frame.triangles.len();
-        let drawn = after + self.frame.polygons.len();
-        let changed = self.frame.changes.last().is_some_and(|change| change.after == drawn);
+        let surfaces = after + self.frame.polygons.len();
+        let changed = self.frame.changes.last().is_some_and(|change| change.after == self.frame.drawn())
+            || self.frame.lines.last().is_some_and(|line| line.after == surfaces);
         match name {
             "T" => {
                 let triangle = triangle(place, words, &mut self.frame.host)?;
@@ -294,6 +299,10 @@ impl Parser {
             _ if self.frame.extra > 0 => return Err(extra::polygon(place, name, self.frame.extra)),
             _ if let Some(shading) = &self.frame.shading => {
                 return Err(shading::polygon(place, name, shading.method));
+            }
+            "S" => {
+                let ends = ends(place, words, &mut self.frame.host)?;
+                self.frame.lines.push(Line { ends, after: surfaces });
             }
             "P" => {
                 let contours = vec![contour(place, name, words, &mut self.frame.host)?];

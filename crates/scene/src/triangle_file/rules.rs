@@ -61,7 +61,7 @@ pub(super) fn change<'a>(
     frame: &mut Frame,
 ) -> Result<(), InputError> {
     let clear_depth = read(place, name, words, rules)?;
-    let after = frame.triangles.len() + frame.polygons.len();
+    let after = frame.drawn();
     let state = State { depth_write: rules.stores_depth(), ..*rules };
     match frame.changes.last_mut().filter(|change| change.after == after) {
         Some(change) => *change = Change { state, clear_depth: change.clear_depth || clear_depth, ..*change },

@@ -218,9 +218,10 @@ pub(super) fn missing(place: Place, before: &[u8], line: usize) -> InputError {
     place.fault("N", before, why).into()
 }
 
-/// A polygon where pixels are shaded.
+/// A polygon or line where pixels are shaded.
 pub(super) fn polygon(place: Place, key: &str, method: PixelMethod) -> InputError {
-    let why = format!("polygons have no `N`; permitted with `mode {}`: only triangles", method.name());
+    let what = if key == "S" { "lines" } else { "polygons" };
+    let why = format!("{what} have no `N`; permitted with `mode {}`: only triangles", method.name());
     place.fault("line starts with", key.as_bytes(), why).into()
 }
 

@@ -1,4 +1,4 @@
-//! The lines `T`, `P` and `H`: vertices, each of seven numbers.
+//! The lines `T`, `S`, `P` and `H`: vertices, each of seven numbers.
 
 use crate::error::InputError;
 use crate::frame::{DEPTH_ROUNDING, MAX_CONTOUR, MAX_COORDINATE};
@@ -23,6 +23,18 @@ pub(super) fn triangle<'a>(
         *slot = vertex(place, "T", index, words, host)?;
     }
     Ok(triangle)
+}
+
+/// The ends behind `S`.
+pub(super) fn ends<'a>(
+    place: Place,
+    words: impl Iterator<Item = &'a [u8]>,
+    host: &mut Host,
+) -> Result<[Vertex; 2], InputError> {
+    let words: [&[u8]; 2 * ATTRIBUTES.len()] =
+        place.values("S", "x y z r g b kt of the first end, then of the other", words)?;
+    let [first, other] = [0, 1].map(|index| &words[index * ATTRIBUTES.len()..][..ATTRIBUTES.len()]);
+    Ok([vertex(place, "S", 0, first, host)?, vertex(place, "S", 1, other, host)?])
 }
 
 /// The number of vertices and as many vertices.

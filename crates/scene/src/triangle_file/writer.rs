@@ -69,6 +69,10 @@ pub fn write(frame: &Frame, mut out: impl Write) -> io::Result<()> {
                     normals(shading, &own, &mut out)?;
                 }
             }
+            Primitive::Line(line) => {
+                write!(out, "S")?;
+                vertices(&line.ends, &mut out)?;
+            }
             Primitive::Polygon(polygon) => {
                 for (contour, key) in polygon.contours.iter().zip(iter::once("P").chain(iter::repeat("H"))) {
                     write!(out, "{key} {}", contour.len())?;

@@ -8,6 +8,7 @@
 //!  depth_never ..   a suite for each depth function, and one without depth writes
 //!  blend_add ..     machines with BLEND: colours that are added, and colours that are not written
 //!  light ..         machines with SHADOW: the corners of its map, and no map
+//!  lines            machines whose port takes lines: every direction, the sides of the screen
 //!  own_map ..       machines that draw their map: the ends of map and screen, in either pass
 //!  dither           machines with DITHER: each place of its pattern, ends of colours, dropped fences
 //!  shade            machines with SHADE: words at the ends of its tables, materials in turn
@@ -19,6 +20,7 @@ mod dither;
 mod functions;
 mod hazards;
 mod light;
+mod lines;
 mod own_map;
 mod pen;
 mod random;
@@ -89,6 +91,8 @@ enum Kind {
     Colors { color_write: bool, blend_add: bool },
     /// For SHADOW: its map at work or not.
     Light { shadow_on: bool },
+    /// For machines whose port takes lines.
+    Lines,
     /// For machines that draw their map: in the light's pass or in the picture's.
     OwnMap { light_pass: bool },
     /// For DITHER: each place of its pattern.
@@ -117,6 +121,7 @@ impl Entry {
         match self.kind {
             Kind::Colors { .. } => machine.blend.is_there(),
             Kind::Light { .. } => machine.shadow.is_there(),
+            Kind::Lines => machine.polygon.has_lines(),
             Kind::OwnMap { .. } => machine.shadow.draws_map(),
             Kind::Dither => machine.dither.is_there(),
             Kind::Shade => machine.shade.is_there(),
@@ -126,7 +131,7 @@ impl Entry {
 }
 
 /// The suites that come with the program.
-pub const SUITES: [Entry; 21] = [
+pub const SUITES: [Entry; 22] = [
     shapes(
         "hazards",
         "pixels met again while they are in flight: one-pixel triangles on one address, knee lines drawn twice",
@@ -176,6 +181,11 @@ pub const SUITES: [Entry; 21] = [
         name: "light_off",
         about: "shadow_on = 0: all is lit, in machines with SHADOW",
         kind: Kind::Light { shadow_on: false },
+    },
+    Entry {
+        name: "lines",
+        about: "lines in every direction, on centres and between them, over each side of the screen and beside it, in machines whose port takes lines",
+        kind: Kind::Lines,
     },
     Entry {
         name: "own_map",
@@ -249,6 +259,7 @@ impl Suite {
                 cases: light::cases(machine),
                 ..plain
             },
+            Kind::Lines => Suite { stalls: StallKind::Mixed, cases: lines::cases(machine), ..plain },
             Kind::OwnMap { light_pass } => Suite {
                 state: DrawState { light_pass, ..plain.state },
                 clear_z: light_pass.then_some((1 << machine.shadow.depth_bits) - 1),

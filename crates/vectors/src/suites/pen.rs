@@ -112,6 +112,15 @@ impl<'a> Pen<'a> {
         self.shaded(at, [z; 3])
     }
 
+    /// A line with a depth at each end, for a machine whose port takes lines.
+    pub fn line(&self, ends: [(f64, f64); 2], z: [f64; 2]) -> Triangle {
+        let [a, b] = [0, 1].map(|i| {
+            let [r, g, b] = COLORS[i];
+            self.vertex(ends[i], [z[i], r, g, b])
+        });
+        self.machine.line([a, b])
+    }
+
     /// A triangle that in exact fill covers the pixel (column, line) alone, on any sub-pixel grid.
     pub fn dot(&self, column: f64, line: f64, z: f64) -> Triangle {
         self.level([(column, line), (column + 1.5, line), (column, line + 1.5)], z)

@@ -4,9 +4,9 @@
 use edgewalk_lockstep::{Agreement, Interface, LockstepError, NetlistDevice, PortError};
 use edgewalk_machine::units;
 use edgewalk_machine::{
-    Blend, BlendKind, Bump, Dither, EdgeKind, Fill, Gate, Hazard, Kind, Machine, OwnPass, Plan, Precision,
-    Project, ScreenDoor, Shade, ShadeColour, ShadeKind, ShadeLight, Shadow, ShadowLight, Texture, Transmits,
-    Walk,
+    Blend, BlendKind, Bump, Dither, EdgeKind, Fill, Gate, Hazard, Kind, Lines, Machine, OwnPass, Plan,
+    Precision, Project, ScreenDoor, Shade, ShadeColour, ShadeKind, ShadeLight, Shadow, ShadowLight, Texture,
+    Transmits, Walk,
 };
 use edgewalk_netlist::Netlist;
 use edgewalk_vectors::{Files, Trace, Unit};
@@ -119,6 +119,21 @@ fn with_extras<const K: usize>(machine: Machine, extras: [(Kind, u32); K]) -> Ma
         extra.precision = Precision { bits, fraction: 8, vertex_fraction: 2 };
     }
     machine
+}
+
+/// Three machines whose port takes lines: a wide screen, a high one with slopes and tags, one that blends and draws its map.
+pub fn lined() -> Vec<(&'static str, Plan)> {
+    let mut wide = Machine::clone(&small());
+    wide.polygon.lines = Lines::Yes;
+    let slopes = Machine { edge_kind: EdgeKind::Slope, edge_fraction: 12, tag_bits: 3, ..wide.clone() };
+    let high = Machine { width: 12, height: 33, subpixel_bits: 1, lanes: 4, hazard: Hazard::Drain, ..slopes };
+    let blend = Blend { kind: BlendKind::Constant, kt_fraction: 8, kt_vertex: 2, ..wide.blend };
+    let light = Shadow { light: ShadowLight::Parallel, fraction: 8, vertex_fraction: 2, ..wide.shadow };
+    let shadow = Shadow { size: 40, guard_bits: 0, depth_bits: 8, own_pass: OwnPass::Yes, ..light };
+    let own_map = Machine { blend, shadow, lanes: 2, ..wide.clone() };
+    [("wide", wide), ("high_slopes_tags", high), ("blend_own_map", own_map)]
+        .map(|(name, machine)| (name, checked(machine)))
+        .into()
 }
 
 /// Twelve machines with their names: adders, segments, lanes, radices, word lengths, fills, edges, hazard policies, and in

@@ -1,11 +1,11 @@
 //! What differs between two machines, as text and as JSON.
 
+use super::difference::Pixels;
 use crate::document::document;
 use crate::verdict::Verdict;
 use anyhow::Result;
 use edgewalk_explore::sweep::equation::Distance;
 use edgewalk_explore::sweep::row::{Cost, causes, keys};
-use edgewalk_host::raster::Raster;
 use edgewalk_judge::report::Report;
 use edgewalk_machine::Plan;
 use edgewalk_model::Waits;
@@ -22,8 +22,6 @@ pub struct Side {
     pub shading: Option<&'static str>,
     /// What `render` says of it.
     pub report: Report,
-    /// Its picture.
-    pub raster: Raster,
     /// How far the picture is from the shading equation, where the shadings differ.
     pub distance: Option<Distance>,
     /// What it costs, if asked for.
@@ -37,18 +35,7 @@ pub struct Page {
     values: [Value; 2],
     input: String,
     waits: Waits,
-    /// Of every pixel the largest difference of a colour, in 0 to 1.
-    differences: Vec<f64>,
     pixels: Pixels,
-}
-
-/// Pixels that differ.
-#[derive(Default)]
-struct Pixels {
-    color: u64,
-    depth: u64,
-    coverage: u64,
-    shown: u64,
 }
 
 /// A figure, and where the reports have it.
@@ -81,37 +68,10 @@ const CELLS: [(&str, &str); 8] = [
 ];
 
 impl Page {
-    /// Of two sides on one screen.
-    pub fn new(sides: [Side; 2], input: &str, waits: Waits) -> Result<Self> {
+    /// Of two sides on one screen, and the pixels in which their pictures differ.
+    pub fn new(sides: [Side; 2], input: &str, waits: Waits, pixels: Pixels) -> Result<Self> {
         let values = [serde_json::to_value(&sides[0].report)?, serde_json::to_value(&sides[1].report)?];
-        let [a, b] = [&sides[0].raster, &sides[1].raster];
-        let mut pixels = Pixels::default();
-        let mut differences = Vec::new();
-        for i in 0..a.rgb.len() {
-            let pairs = a.rgb[i].iter().zip(b.rgb[i]);
-            let difference = pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
-            differences.push(difference);
-            pixels.color += u64::from(difference > 0.0);
-            pixels.depth += u64::from(a.z[i] != b.z[i]);
-            pixels.coverage += u64::from(a.coverage[i] != b.coverage[i]);
-            pixels.shown += u64::from(a.id[i] != b.id[i]);
-        }
-        Ok(Page { sides, values, input: input.to_owned(), waits, differences, pixels })
-    }
-
-    /// The pictures.
-    pub fn rasters(&self) -> [&Raster; 2] {
-        self.sides.each_ref().map(|side| &side.raster)
-    }
-
-    /// Of every pixel.
-    pub fn differences(&self) -> &[f64] {
-        &self.differences
-    }
-
-    /// Of all pixels, in 0 to 1.
-    pub fn largest_difference(&self) -> f64 {
-        self.differences.iter().copied().fold(0.0, f64::max)
+        Ok(Page { sides, values, input: input.to_owned(), waits, pixels })
     }
 
     /// Triangles of the input.
@@ -201,19 +161,19 @@ impl Page {
             let list = list.into_iter().filter(|(_, a, b)| a != b);
             list.map(|(name, a, b)| (name, json!([a, b]))).collect::<serde_json::Map<_, _>>().into()
         };
-        let Pixels { color, depth, coverage, shown } = self.pixels;
+        let Pixels { all, color, depth, coverage, shown, largest } = self.pixels;
         let value = json!({
             "input": self.input,
             "stalls": self.waits.to_string(),
             "keys": differ(self.keys()),
             "figures": differ(self.figures()),
             "pixels": {
-                "all": self.differences.len(),
+                "all": all,
                 "color": color,
                 "depth": depth,
                 "coverage": coverage,
                 "triangle": shown,
-                "largest_color_difference": self.largest_difference(),
+                "largest_color_difference": largest,
             },
             "a": side(0),
             "b": side(1),
@@ -243,7 +203,7 @@ impl Page {
                 _ = writeln!(t, "{label}: {why}");
             }
         }
-        let Pixels { color, depth, coverage, shown } = self.pixels;
+        let Pixels { all, color, depth, coverage, shown, largest } = self.pixels;
         if let [Some(a), Some(_)] = [a.distance, b.distance] {
             _ = writeln!(
                 t,
@@ -253,9 +213,7 @@ impl Page {
         }
         _ = writeln!(
             t,
-            "pixels that differ of {}: colour {color} (by at most {:.4} of full scale), depth {depth}, coverage {coverage}, triangle {shown}",
-            self.differences.len(),
-            self.largest_difference()
+            "pixels that differ of {all}: colour {color} (by at most {largest:.4} of full scale), depth {depth}, coverage {coverage}, triangle {shown}"
         );
         t
     }

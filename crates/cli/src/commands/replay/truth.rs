@@ -18,7 +18,7 @@ const FRAGMENTS: [&str; 3] = ["dithered", "shaded", "fragment"];
 pub fn truth(machine: &Plan, frame: &Frame, ids: &[i32], tokens: &Tokens) -> Vec<Truth> {
     let of = |name: &'static str| Some((name, tokens.kinds().iter().find(|kind| kind.name == name)?));
     let Some((name, kind)) = FRAGMENTS.into_iter().find_map(of) else { return Vec::new() };
-    let exact = exact(machine, frame, ids, kind.met.iter().map(|token| token[0]).collect());
+    let exact = exact(machine, frame, ids, &kind.met.iter().map(|token| (token[0], token[1])).collect());
     let colours_change = machine.blend.is_there()
         || machine.shadow.is_there()
         || machine.shade.is_there()
@@ -42,19 +42,26 @@ pub fn truth(machine: &Plan, frame: &Frame, ids: &[i32], tokens: &Tokens) -> Vec
     told.collect()
 }
 
-/// The channels, LSB, by triangle and address.
-fn exact(machine: &Plan, frame: &Frame, ids: &[i32], wanted: HashSet<u64>) -> HashMap<(u64, u64), Vec<f64>> {
+/// A fragment: its triangle and its address.
+type Place = (u64, u64);
+
+/// The channels, LSB, of the fragments that are wanted: of all fragments of a large screen they would not fit into memory.
+fn exact(machine: &Plan, frame: &Frame, ids: &[i32], wanted: &HashSet<Place>) -> HashMap<Place, Vec<f64>> {
     let mut exact = HashMap::new();
     if !matches!(golden_fill(machine), Fill::Exact { .. }) {
         return exact;
     }
-    for (number, id) in ids.iter().enumerate().filter(|(number, _)| wanted.contains(&(*number as u64))) {
-        let Some(triangle) = usize::try_from(*id).ok().and_then(|id| frame.triangles.get(id)) else {
+    let triangles: HashSet<u64> = wanted.iter().map(|(triangle, _)| *triangle).collect();
+    for (number, id) in ids.iter().enumerate().filter(|(number, _)| triangles.contains(&(*number as u64))) {
+        let Some(triangle) = usize::try_from(*id).ok().and_then(|id| frame.triangle_at(id)) else {
             continue;
         };
         let screen = (machine.width, machine.height);
         fragments(triangle, frame.mode, machine.subpixel_bits, screen, |fragment| {
             let addr = u64::from(fragment.y) << machine.widths().x | u64::from(fragment.x);
+            if !wanted.contains(&(number as u64, addr)) {
+                return;
+            }
             let mut values = vec![fragment.z() * machine.z.max() as f64];
             values.extend(fragment.rgb().map(|value| value * machine.color.max() as f64));
             let own = extra::channels(machine).iter().enumerate();

@@ -32,7 +32,7 @@ fn file(out: &Path, chunk: u32) -> PathBuf {
 
 /// Writes the definition and the job scripts.
 pub fn plan(definition: &Definition, out: &Path, talk: Talk) -> Result<Verdict> {
-    let sweep = Sweep::new(definition.clone())?;
+    let sweep = super::opened(definition.clone())?;
     let chunks = definition.chunks.unwrap_or(1);
     let program = std::env::current_exe().context("this program")?;
     let fill = |template: &str| {

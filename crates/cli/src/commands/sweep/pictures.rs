@@ -1,13 +1,14 @@
 //! Pictures of the best machines for the report: the image, and heat maps of its errors.
 
-use crate::picture::{bytes, heat, png};
+use crate::picture::Png;
 use anyhow::Result;
 use edgewalk_explore::page::Pictures;
 use edgewalk_explore::sweep::shared::pixel_key;
 use edgewalk_explore::sweep::table::{Candidate, Table};
 use edgewalk_explore::sweep::{Point, Sweep};
 use edgewalk_host::draw;
-use edgewalk_judge::compare::compare;
+use edgewalk_host::port::to_port;
+use edgewalk_judge::beside::{Golden, Proved, beside};
 use edgewalk_model::Waits;
 use std::collections::BTreeSet;
 
@@ -35,13 +36,20 @@ pub fn pictures(table: &Table) -> Result<Vec<Pictures>> {
 fn drawn(sweep: &Sweep, point: &Point) -> Result<Option<Pictures>> {
     let Ok(plan) = &point.plan else { return Ok(None) };
     let frame = sweep.drawn(point).input.frame(plan)?;
-    let [golden, drawn] = [draw::golden(&frame, plan), draw::fast(&frame, plan, Waits::Never)?];
-    let found = compare(plan, &frame, &golden, &drawn);
-    let size = (drawn.width, drawn.height);
+    let (port, size) = (to_port(&frame, plan)?, (plan.width, plan.height));
+    let [mut picture, mut depth, mut color] =
+        [Png::in_memory(size)?, Png::in_memory(size)?, Png::in_memory(size)?];
+    let proved = Proved { reach: None, shading: None };
+    let draw = |lines, take: &mut dyn FnMut(_) -> _| draw::in_bands(plan, &port, Waits::Never, lines, take);
+    beside(plan, &frame, &Golden::of(&frame, plan), proved, draw, |lines| {
+        picture.extend_rgb(&lines.drawn.rgb)?;
+        depth.extend_heat(lines.z_error, 1.0)?;
+        color.extend_heat(lines.color_error, 1.0)
+    })?;
     let images = vec![
-        ("picture", png(size, |i| bytes(drawn.rgb[i]))?),
-        ("depth error", png(size, |i| heat(found.errors.z.map[i]))?),
-        ("colour error", png(size, |i| heat(found.errors.color.map[i]))?),
+        ("picture", picture.bytes()?),
+        ("depth error", depth.bytes()?),
+        ("colour error", color.bytes()?),
     ];
     Ok(Some(Pictures { key: point.key.clone(), images }))
 }

@@ -2,7 +2,7 @@
 
 use anyhow::Result;
 use edgewalk_lockstep::{Difference, Rig, model};
-use edgewalk_replay::{LIMIT, Recorder, Replay, page};
+use edgewalk_replay::{LIMIT, Plane, Recorder, Replay, page};
 use edgewalk_vectors::{Suite, Trace};
 
 /// Cycles shown before the difference, where the run is too long to be shown from its begin.
@@ -52,7 +52,7 @@ pub fn page(suite: &Suite, trace: &Trace, difference: &Difference) -> Result<Opt
 }
 
 /// The memory at the start, by field of the tokens that are stored and by pixel.
-fn cleared(trace: &Trace) -> Vec<Vec<u32>> {
+fn cleared(trace: &Trace) -> Vec<Plane> {
     let pixels = (trace.plan.width * trace.plan.height) as usize;
     let clear = |name: &str| {
         let place = trace.interface.memories.iter().position(|memory| memory.name == name);
@@ -66,7 +66,8 @@ fn cleared(trace: &Trace) -> Vec<Vec<u32>> {
         _ => 0,
     };
     let lit = usize::from(trace.plan.shadow.is_there());
-    (0..trace.plan.seen_channels().count() + lit).map(|place| vec![word(place); pixels]).collect()
+    let plane = |place| Plane::new(u32::BITS, std::iter::repeat_n(word(place), pixels));
+    (0..trace.plan.seen_channels().count() + lit).map(plane).collect()
 }
 
 #[cfg(test)]

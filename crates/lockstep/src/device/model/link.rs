@@ -8,8 +8,8 @@ use crate::unit::Unit;
 use crate::values::{PortId, PortValues};
 use edgewalk_machine::{DrawState, MemoryPort, Plan, PortVertex, Ports};
 use edgewalk_model::WordIn;
-use edgewalk_model::named::Sourced;
 use edgewalk_model::ports::Held;
+use edgewalk_model::tokens::Sourced;
 use edgewalk_model::word_memory::Ask;
 use std::ops::Range;
 
@@ -62,6 +62,9 @@ impl<'a> Scope<'a> {
 pub trait Takes<T> {
     /// The token that is offered.
     fn token(&self, ports: &PortValues) -> Option<T>;
+
+    /// The clock edge of a cycle with these values.
+    fn clock(&mut self, _: &PortValues) {}
 }
 
 /// Where tokens with named fields come in.
@@ -93,21 +96,52 @@ impl<T: Sourced> Takes<T> for Taker<T> {
 pub struct TriangleTaker {
     link: Link,
     triangles: Triangles,
+    /// The words taken of a triangle that comes word by word.
+    taken: Vec<u128>,
 }
 
 impl TriangleTaker {
     pub fn find(scope: Scope) -> Result<TriangleTaker, NoPlace> {
-        let (_, link) = scope.link("tri")?;
-        let triangles = Triangles::of(scope.plan, link).ok_or_else(|| scope.missing("a field of tri"))?;
-        Ok(TriangleTaker { link: link.clone(), triangles })
+        let takes = scope.declared()?.takes;
+        let (_, link) = scope.link(takes.as_ref().map_or("", |link| link.name))?;
+        let triangles =
+            Triangles::of(scope.plan, link).ok_or_else(|| scope.missing("a field of a triangle"))?;
+        Ok(TriangleTaker { link: link.clone(), triangles, taken: Vec::new() })
+    }
+
+    /// The triangle whose last word is offered; before that one of which only the words so far are known.
+    fn whole(&self, ports: &PortValues) -> Vec<u128> {
+        let ([word, beside @ ..], Some(field)) =
+            (self.link.token(ports), self.link.words.get(self.taken.len()))
+        else {
+            return self.link.token(ports).to_vec();
+        };
+        let mut whole = self.taken.clone();
+        whole.push(word & (u128::MAX >> (128 - field.width())));
+        whole.resize(self.link.words.len(), 0);
+        whole.extend(beside);
+        whole
     }
 }
 
-/// A triangle and its tag. In a reset none is taken.
+/// A triangle and its tag; of one that comes word by word as soon as a word is offered. In a reset none is taken.
 impl Takes<([PortVertex; 3], u32)> for TriangleTaker {
     fn token(&self, ports: &PortValues) -> Option<([PortVertex; 3], u32)> {
         let offered = ports.is_high(self.link.valid) && !ports.rst;
-        offered.then(|| self.triangles.unpack(self.link.token(ports)))
+        offered.then(|| self.triangles.unpack(&self.whole(ports)))
+    }
+
+    fn clock(&mut self, ports: &PortValues) {
+        if ports.rst {
+            self.taken.clear();
+        } else if let Some(field) = self.link.words.get(self.taken.len())
+            && self.link.fires(ports)
+        {
+            self.taken.push(self.link.token(ports)[0] & (u128::MAX >> (128 - field.width())));
+            if self.taken.len() == self.link.words.len() {
+                self.taken.clear();
+            }
+        }
     }
 }
 

@@ -126,7 +126,7 @@ impl<const C: usize> MachineDevice<C> {
     fn show(&mut self, outputs: &edgewalk_model::Outputs<C>, ports: &mut PortValues) {
         let blend = &outputs.blend;
         self.depth.show(Ask { addr: outputs.rd, take: outputs.data_ready }, ports);
-        for (memory, ask) in self.words.iter().zip(&outputs.words) {
+        for (memory, ask) in self.words.iter().zip(self.model.asks()) {
             memory.show(*ask, ports);
         }
         if let Some(color) = &self.color {
@@ -154,6 +154,7 @@ impl<const C: usize> Device for MachineDevice<C> {
         }
         let outputs = self.model.cycle(&inputs);
         self.show(&outputs, ports);
+        self.tri.clock(ports);
     }
 }
 

@@ -7,8 +7,9 @@ use crate::interface::Link;
 use crate::values::{PortId, PortValues};
 use edgewalk_machine::Plan;
 use edgewalk_model::Events;
-use edgewalk_model::named::{Place, Sourced};
+use edgewalk_model::named::Place;
 use edgewalk_model::ports::{Held, Pins, Ported, Shown};
+use edgewalk_model::tokens::Sourced;
 use edgewalk_model::word_memory::Ask;
 
 /// The outputs of a unit. What it shows first says where each field of its tokens stands.
@@ -228,6 +229,7 @@ impl<U: Ported<C>, K: Takes<U::Takes>, const C: usize> Device for UnitDevice<U, 
         if ports.rst {
             self.unit.clear();
         }
+        self.taker.clock(ports);
     }
 }
 

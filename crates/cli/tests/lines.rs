@@ -1,0 +1,150 @@
+//! Lines of triangle files and wireframes, drawn by the machine.
+
+use crate::support::{edgewalk, ended, rendered_by_every_engine};
+
+/// Lines before, between and behind surfaces, over the sides of the screen, along both axes, and from both ends.
+const FILE: &str = "size 48 36
+clear 0.1 0.1 0.2
+S  -5 3 0.4 1 0 0 0   60 30 0.4 0 1 0 0
+T  4 4 0.5 1 1 0 0   44 8 0.5 0 1 1 0   10 33 0.5 1 0 1 0
+S  40 34 0.3 1 1 1 0   2 2 0.7 0 0 1 0
+P 4  20 10 0.2 1 0 0 0   30 10 0.2 1 0 0 0   30 20 0.2 1 0 0 0   20 20 0.2 1 0 0 0
+depth lequal
+S  25 -9 0.1 0 1 0 0   25.5 50 0.9 0 1 1 0
+S  3.5 20.5 0.5 1 1 0 0   30.5 20.5 0.5 1 1 0 0
+S  7 7 0.5 1 1 1 0   7 7 0.5 1 1 1 0
+";
+
+const LINES: [&str; 2] = ["--set", "polygon.lines=yes"];
+
+fn folder(file: &str) -> tempfile::TempDir {
+    let folder = tempfile::tempdir().expect("a folder");
+    std::fs::write(folder.path().join("a.tri"), file).expect("a file");
+    folder
+}
+
+#[test]
+fn lines_of_a_file_are_drawn_by_every_engine() {
+    let folder = folder(FILE);
+    for more in [&["--set", "setup.lanes=1"][..], &["--set", "blend.kind=constant"]] {
+        for report in rendered_by_every_engine(folder.path(), &[&["a.tri"], &LINES[..], more].concat()) {
+            assert_eq!((&report["triangles"], &report["lines"]), (&3.into(), &5.into()));
+            let comparison = &report["comparison"];
+            assert_eq!(comparison["coverage_mismatches"], 0, "{comparison}");
+            assert_eq!(comparison["order_wrong"], 0, "{comparison}");
+            assert!(report["fragments"].as_u64() > Some(500), "{report}");
+        }
+    }
+}
+
+#[test]
+fn a_wireframe_is_drawn_by_every_engine() {
+    let folder = folder(FILE);
+    for hidden in [&[][..], &["--hidden-lines"]] {
+        let arguments = [&["a.tri", "--shading", "wireframe"], hidden, &LINES].concat();
+        for report in rendered_by_every_engine(folder.path(), &arguments) {
+            agrees(&report);
+            assert_eq!(report["lines"], 12, "three edges of the triangle, four of the square, five lines");
+            assert_eq!(report["triangles"].as_u64() == Some(0), !hidden.is_empty());
+        }
+    }
+}
+
+/// Coverage and order are golden's.
+fn agrees(report: &serde_json::Value) {
+    let comparison = &report["comparison"];
+    assert_eq!((&comparison["coverage_mismatches"], &comparison["order_wrong"]), (&0.into(), &0.into()));
+}
+
+#[test]
+fn a_wireframe_of_a_torus_agrees_with_golden() {
+    let folder = tempfile::tempdir().expect("a folder");
+    for hidden in [&[][..], &["--hidden-lines"]] {
+        let arguments = [&["render", "torus", "--shading", "wireframe", "--json"], hidden, &LINES].concat();
+        let output = edgewalk(folder.path(), &arguments).output().expect("runs");
+        let report: serde_json::Value = serde_json::from_slice(&output.stdout).expect("a report");
+        agrees(&report);
+        assert_eq!(report["lines"], 6144);
+        assert!(report["fragments"].as_u64() > Some(50_000), "{report}");
+    }
+}
+
+#[test]
+fn lines_want_a_machine_that_takes_them() {
+    let folder = folder(FILE);
+    let said = |arguments: &[&str]| ended(&edgewalk(folder.path(), arguments).output().expect("runs"));
+    for arguments in [
+        &["render", "a.tri"][..],
+        &["raster", "a.tri", "--out", "o"],
+        &["verify", "a.tri", "--no-simulators"],
+        &["render", "torus", "--shading", "wireframe"],
+    ] {
+        let (code, error) = said(arguments);
+        assert_eq!(code, Some(2), "{arguments:?}: {error}");
+        for part in ["lines: the machine's port takes triangles only", "--set polygon.lines=yes", "--adapt"] {
+            assert!(error.contains(part), "{arguments:?}: {error}");
+        }
+    }
+    assert_eq!(said(&["raster", "a.tri", "--adapt", "--out", "o"]).0, Some(0));
+    for (key, reason) in [
+        ("edge.fill=textbook", "a line wants edge.fill = exact"),
+        ("screen.subpixel_bits=0", "lines need screen.subpixel_bits of 1 or more"),
+        ("shade.kind=fast-phong", "lines need shade.kind = none"),
+    ] {
+        let integers = key.contains("fill").then_some(["--set", "screen.subpixel_bits=0"]);
+        let settings = integers.iter().flatten().copied().chain(["--set", key]).chain(LINES);
+        let (code, error) = said(&["config", "print"].into_iter().chain(settings).collect::<Vec<_>>());
+        assert_eq!(code, Some(2), "{key}: {error}");
+        assert!(error.contains(reason) && error.contains("try polygon.lines = no"), "{key}: {error}");
+    }
+}
+
+#[test]
+fn malformed_lines_name_place_and_remedy() {
+    let end = "1 1 0.5 1 1 1 0";
+    for (file, parts) in [
+        (format!("size 9 9\nS {end}"), &["a.tri:2: S: `7 given`", "14 values"][..]),
+        (format!("size 9 9\nS {end} 9 9 1.5 1 1 1 0"), &["a.tri:2: S vertex 2 z: `1.5`"]),
+        (format!("S {end} {end}"), &["a.tri:1: size: `S`", "missing"]),
+        (format!("size 9 9\nextra 1\nS {end} {end}"), &["`S`", "lines have no `X`"]),
+        (
+            format!("size 9 9\nmode phong\nview 0 0 1\nsun 0 0 1 1\nS {end} {end}"),
+            &["`S`", "lines have no `N`"],
+        ),
+        (
+            format!("size 9 9\nP 3 {end} 5 1 0 1 1 1 0 1 5 0 1 1 1 0\nS {end} {end}\nH 3 {end} {end} {end}"),
+            &["`H`", "only on the lines after a polygon"],
+        ),
+        (
+            format!("size 9 9\nS {end} 99999 1 0.5 1 1 1 0"),
+            &["line 0, end 1", "outside the guard band", "clip it"],
+        ),
+    ] {
+        let folder = folder(&file);
+        let (code, error) =
+            ended(&edgewalk(folder.path(), &["render", "a.tri", "--adapt"]).output().expect("runs"));
+        assert_eq!(code, Some(2), "{file}: {error}");
+        assert!(parts.iter().all(|part| error.contains(part)), "{file}: {error}");
+    }
+}
+
+/// Every word of the machine's tools takes them: vectors, the netlist beside the model, replay, explain.
+#[test]
+fn lines_go_through_the_other_commands() {
+    let folder = folder(&FILE.replace("depth lequal\n", ""));
+    for arguments in [
+        &["verify", "a.tri", "--no-simulators"][..],
+        &["vectors", "a.tri", "--out", "v"],
+        &["explain", "a.tri", "24", "18"],
+        &["explain", "a.tri", "4", "20"],
+        &["replay", "a.tri", "--out", "r.html"],
+        &["trace", "a.tri", "--out", "t.vcd"],
+        &["triangles", "a.tri", "--out", "b.tri"],
+    ] {
+        let arguments = [arguments, &["--adapt"]].concat();
+        let (code, error) = ended(&edgewalk(folder.path(), &arguments).output().expect("runs"));
+        assert_eq!(code, Some(0), "{arguments:?}: {error}");
+    }
+    let written = std::fs::read_to_string(folder.path().join("b.tri")).expect("a triangle file");
+    assert_eq!(written.lines().filter(|line| line.starts_with("S ")).count(), 5, "{written}");
+}

@@ -1,0 +1,273 @@
+//! The assembler: words of the program as bits of the ROM, and the bits that stand in it, taken apart.
+
+use edgewalk_machine::sequencer::Program;
+use edgewalk_machine::sequencer::word::{
+    Act, Base, Control, Corner, Factor, Give, Only, Operand, Part, Row, Sign, Word,
+};
+use edgewalk_netlist::{Module, Signal};
+
+/// Bits of the place of a row.
+pub(super) const ROW_BITS: u32 = 7;
+/// Bits of the place of a word within its vertex.
+pub(super) const PART_BITS: u32 = 4;
+/// Place of a vertex's first channel.
+pub(super) const FIRST_VALUE: u128 = 2;
+/// Stands for the place of the value of the round.
+const VALUE: u128 = 15;
+
+/// How the place of a row follows from the word.
+#[derive(Clone, Copy)]
+pub(super) enum Mode {
+    AsIs,
+    Digits,
+    Edge,
+    Pass,
+    Vertex,
+    Upper,
+    Lower,
+}
+
+/// What a word does besides, as a number; 0 does nothing.
+#[derive(Clone, Copy)]
+pub(super) enum Deed {
+    Unsorted = 1,
+    Swap01,
+    Swap12,
+    Side,
+    Upper,
+    Lower,
+    Shift,
+    Judge,
+    Check,
+    TimesT,
+    TimesK,
+    Scale,
+    LastRound,
+    Edge0,
+    Edge1,
+    Edge2,
+    Beside,
+    Alone,
+    Drop,
+    Done,
+}
+
+/// Which word comes next, as a number.
+#[derive(Clone, Copy)]
+pub(super) enum Jump {
+    Next,
+    Words,
+    Settle,
+    Digits,
+    Again,
+    Zeros,
+    More,
+    Negative,
+    Unfit,
+    NoUpper,
+    NoLower,
+    Rounds,
+    Goto,
+    Call,
+    Return,
+}
+
+/// The results as numbers; 0 is none.
+pub(super) fn number_of(give: Give) -> u128 {
+    1 + give as u128
+}
+
+/// The parts of a word in the ROM, the most significant first: their names and bits; `target` has those of a place.
+const FIELDS: [(&str, u32); 18] = [
+    ("act", 5),
+    ("give", 4),
+    ("target", 0),
+    ("jump", 4),
+    ("load_g", 1),
+    ("load_f", 1),
+    ("write_w", 1),
+    ("write_a", 1),
+    ("write_row", 6),
+    ("steps", 1),
+    ("only", 3),
+    ("raised", 1),
+    ("whole", 1),
+    ("by_a", 1),
+    ("by_side", 1),
+    ("minus", 1),
+    ("base", 2),
+    ("mode", 3),
+];
+
+/// Behind them the row.
+fn fields(program: &Program) -> impl Iterator<Item = (&'static str, u32)> {
+    let place = place_bits(program);
+    let sized = move |(name, bits): (&'static str, u32)| (name, if bits == 0 { place } else { bits });
+    FIELDS.into_iter().chain([("row", ROW_BITS)]).map(sized)
+}
+
+/// Bits of the place of a word.
+pub(super) fn place_bits(program: &Program) -> u32 {
+    (program.words.len() - 1).ilog2() + 1
+}
+
+/// A word taken apart.
+pub(super) struct Decoded<'m>(Vec<(&'static str, Signal<'m>)>);
+
+impl<'m> Decoded<'m> {
+    pub fn get(&self, name: &str) -> Signal<'m> {
+        let found = self.0.iter().find(|(field, _)| *field == name);
+        found.expect("only fields of the list are asked for").1
+    }
+
+    pub fn jumps(&self, jump: Jump) -> Signal<'m> {
+        self.get("jump").eq(jump as i32)
+    }
+
+    pub fn does(&self, deed: Deed) -> Signal<'m> {
+        self.get("act").eq(deed as i32)
+    }
+
+    pub fn is_mode(&self, mode: Mode) -> Signal<'m> {
+        self.get("mode").eq(mode as i32)
+    }
+}
+
+/// The ROM; gives the word that was addressed a clock before.
+pub(super) fn rom<'m>(m: &'m Module, program: &Program, next: Signal<'m>) -> Decoded<'m> {
+    let fields: Vec<_> = fields(program).collect();
+    let bits = fields.iter().map(|(_, bits)| bits).sum();
+    let rom = m.memory("listing", place_bits(program), program.words.len(), bits).doc("the program");
+    for (place, word) in program.words.iter().enumerate() {
+        let mut code = 0u128;
+        for (name, bits) in &fields {
+            code = code << bits | value(word, name);
+        }
+        rom.holds(place, code, &word.text);
+    }
+    let word = rom.read(m.lit(1, 1), next);
+    let mut below = bits;
+    let mut decoded = Vec::new();
+    for (name, bits) in fields {
+        below -= bits;
+        decoded.push((name, word.slice(below + bits - 1, below).named(name)));
+    }
+    Decoded(decoded)
+}
+
+/// A part of the word as a number.
+fn value(word: &Word, field: &str) -> u128 {
+    let row = word.step.map(|step| step.row).or(word.factor.map(|(_, row)| row));
+    let (mode, place) = row.map_or((Mode::AsIs, 0), row_code);
+    let step = word.step;
+    let sign = |signs: &[Sign]| step.is_some_and(|step| signs.contains(&step.sign)).into();
+    match field {
+        "act" => word.act.map_or(0, deed),
+        "give" => word.give.map_or(0, number_of),
+        "target" => word.control.place().map_or(0, u128::from),
+        "jump" => jump(word.control) as u128,
+        "load_g" => matches!(word.factor, Some((Factor::G, _))).into(),
+        "load_f" => matches!(word.factor, Some((Factor::F, _))).into(),
+        "write_w" => word.write.is_some_and(|write| !write.only_a).into(),
+        "write_a" => word.write.is_some().into(),
+        "write_row" => word.write.map_or(0, |write| write.row.into()),
+        "steps" => step.is_some().into(),
+        "only" => step.map_or(0, |step| only(step.only)),
+        "raised" => step.is_some_and(|step| step.operand == Operand::Raised).into(),
+        "whole" => step.is_some_and(|step| step.operand == Operand::Whole).into(),
+        "by_a" => sign(&[Sign::ByA]),
+        "by_side" => sign(&[Sign::PlusBySide, Sign::MinusBySide]),
+        "minus" => sign(&[Sign::Minus, Sign::MinusBySide]),
+        "base" => step.map_or(0, |step| base(step.base)),
+        "mode" => mode as u128,
+        _ => place,
+    }
+}
+
+fn row_code(row: Row) -> (Mode, u128) {
+    let vertex = |place: u128, part: u128| 1 << (ROW_BITS - 1) | place << PART_BITS | part;
+    match row {
+        Row::Named(row) => (Mode::AsIs, row.into()),
+        Row::Digits(table) => (Mode::Digits, table.into()),
+        Row::Edge(table) => (Mode::Edge, table.into()),
+        Row::Pass(table) => (Mode::Pass, table.into()),
+        Row::OfChannel => (Mode::Vertex, vertex(3, VALUE)),
+        Row::Vertex(corner, part) => {
+            let part = match part {
+                Part::X => 0,
+                Part::Y => 1,
+                Part::Value => VALUE,
+            };
+            match corner {
+                Corner::Place(place) => (Mode::Vertex, vertex(place.into(), part)),
+                Corner::Upper => (Mode::Upper, vertex(0, part)),
+                Corner::Lower => (Mode::Lower, vertex(0, part)),
+            }
+        }
+    }
+}
+
+fn base(base: Base) -> u128 {
+    match base {
+        Base::Nothing => 0,
+        Base::Same => 1,
+        Base::Twice => 2,
+        Base::Masked => 3,
+    }
+}
+
+fn only(only: Only) -> u128 {
+    match only {
+        Only::Always => 0,
+        Only::Negative => 1,
+        Only::Positive => 2,
+        Only::NoUpper => 3,
+        Only::Right => 4,
+    }
+}
+
+fn jump(control: Control) -> Jump {
+    match control {
+        Control::Next => Jump::Next,
+        Control::Words => Jump::Words,
+        Control::Settle => Jump::Settle,
+        Control::Digits => Jump::Digits,
+        Control::Again => Jump::Again,
+        Control::Zeros(_) => Jump::Zeros,
+        Control::More(_) => Jump::More,
+        Control::Negative(_) => Jump::Negative,
+        Control::Unfit(_) => Jump::Unfit,
+        Control::NoUpper(_) => Jump::NoUpper,
+        Control::NoLower(_) => Jump::NoLower,
+        Control::Rounds(_) => Jump::Rounds,
+        Control::Goto(_) => Jump::Goto,
+        Control::Call(_) => Jump::Call,
+        Control::Return => Jump::Return,
+    }
+}
+
+fn deed(act: Act) -> u128 {
+    let deed = match act {
+        Act::Unsorted => Deed::Unsorted,
+        Act::Swap01 => Deed::Swap01,
+        Act::Swap12 => Deed::Swap12,
+        Act::Side => Deed::Side,
+        Act::Upper => Deed::Upper,
+        Act::Lower => Deed::Lower,
+        Act::Shift => Deed::Shift,
+        Act::Judge => Deed::Judge,
+        Act::Check => Deed::Check,
+        Act::TimesT => Deed::TimesT,
+        Act::TimesK => Deed::TimesK,
+        Act::Scale => Deed::Scale,
+        Act::LastRound => Deed::LastRound,
+        Act::Edge(0) => Deed::Edge0,
+        Act::Edge(1) => Deed::Edge1,
+        Act::Edge(_) => Deed::Edge2,
+        Act::Beside => Deed::Beside,
+        Act::Alone => Deed::Alone,
+        Act::Drop(_) => Deed::Drop,
+        Act::Done => Deed::Done,
+    };
+    deed as u128
+}

@@ -1,0 +1,125 @@
+//! SETUP as a program: words in a ROM, lanes that do one addition a clock.
+
+mod code;
+mod shape;
+mod lane;
+mod words;
+mod digits;
+mod rows;
+mod control;
+mod results;
+
+use std::sync::Arc;
+
+use edgewalk_machine::Plan;
+use edgewalk_machine::sequencer::{Program, edges_are_beside};
+use edgewalk_machine::units::setup::SPEC;
+use edgewalk_netlist::{BuildErrors, Instance, Module, Netlist, Signal};
+
+use crate::light_pass::LightPass;
+use crate::ports::Interface;
+use code::Decoded;
+use control::Control;
+use digits::Digits;
+
+const DOC: &str = "SETUP turns three vertices, which come word by word, into edges and increments. It is a program.
+
+  words ─> rows of the lanes ─> [A, W] ─> rows, prim
+  ROM ─> word: which row, which step, which result, which word comes next
+  [f, g] ─> digits: which row of a table is added
+
+Formats: see the ports; P = 2^t is a pixel in centre coordinates.
+Timing: a word names a row in its first clock, does its step in the second; in the third A and W are written, and leave.
+Rules: section 2 of the specification prints the program.";
+
+/// The parts that the files of this unit share.
+struct Parts<'a, 'm> {
+    m: &'m Module,
+    plan: &'a Plan,
+    program: &'a Program,
+    lanes: Vec<Instance<'m>>,
+    /// The word that is executed.
+    word: Decoded<'m>,
+    /// It is one: the ROM has been read since the reset.
+    runs: Signal<'m>,
+}
+
+impl<'m> Parts<'_, 'm> {
+    /// A lane's output.
+    fn of_lane(&self, lane: usize, port: &str) -> Signal<'m> {
+        self.lanes[lane].output(port)
+    }
+
+    /// A lane whose edge, with the edges side by side, is one of its own.
+    fn has_own_edge(&self, lane: usize) -> bool {
+        edges_are_beside(self.plan) && lane < 3
+    }
+
+    /// The signal a clock later.
+    fn later(&self, name: &str, signal: Signal<'m>) -> Signal<'m> {
+        self.m.reg(name, signal.width()).set(signal).q()
+    }
+}
+
+/// The netlist of a sequenced SETUP.
+///
+/// # Errors
+/// None for a machine that [`edgewalk_machine::Machine::plan`] accepts.
+pub(super) fn setup(plan: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
+    let m = Module::new("edgewalk_setup", DOC);
+    let ports = Interface::new(&m, (SPEC.ports)(plan));
+    let (in_valid, triangle) = ports.takes();
+    let prim_ready = ports.gives_ready();
+    let light_pass = LightPass::of(plan, &ports);
+    let program = &Program::of(plan);
+
+    m.comment("The program.");
+    let next = m.wire("next_place", code::place_bits(program));
+    let word = code::rom(&m, program, next.q());
+    let runs = m.reg("runs", 1).doc("the first word is there").reset(0).set(1).q();
+    let lanes = lanes(&m, plan, program)?;
+    let parts = Parts { m: &m, plan, program, lanes, word, runs };
+
+    let digits = Digits::new(&parts);
+    let control = Control::new(&parts, &digits, prim_ready);
+    next.drive(control.next);
+    let input = words::words(&parts, &control, in_valid, triangle["data"]);
+    rows::connect(&parts, &control, &digits, &input, light_pass);
+    let prim = results::results(&parts, &control, &ports.gives_link().fields);
+    for (name, value) in [("kt", input.kt), ("tag", triangle.get("tag"))] {
+        if let (Some(register), Some(value)) = (prim.get(name), value) {
+            register.when(input.last, value.trunc(register.q().width()));
+        }
+    }
+    if let Some(record) = prim.get("record") {
+        // Culled triangles count: the first after a reset has record 0.
+        record.reset((1 << plan.shade.record_bits) - 1).when(input.last, record.q() + 1);
+    }
+
+    ports.take_ready(control.idle);
+    ports.give(control.prim_there, |name| match name {
+        "major_right" => control.right,
+        _ => prim[name].q(),
+    });
+    m.finish()
+}
+
+/// The lanes, of one module where they are alike.
+fn lanes<'m>(m: &'m Module, plan: &Plan, program: &Program) -> Result<Vec<Instance<'m>>, BuildErrors> {
+    let mut made: Vec<(lane::Shape, Arc<Netlist>)> = Vec::new();
+    let mut lanes = Vec::new();
+    for number in 0..plan.lanes as usize {
+        let shape = shape::shape(plan, program, number);
+        let known = made.iter().find(|(other, _)| other.is_like(&shape)).map(|(_, netlist)| netlist.clone());
+        let netlist = match known {
+            Some(netlist) => netlist,
+            None => {
+                let netlist = lane::lane(&format!("edgewalk_setup_lane{number}"), &shape)?;
+                made.push((shape, netlist.clone()));
+                netlist
+            }
+        };
+        lanes.push(m.instance(&format!("lane{number}"), &netlist));
+    }
+    Ok(lanes)
+}

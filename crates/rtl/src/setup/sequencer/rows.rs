@@ -1,0 +1,125 @@
+//! What the lanes are told: which row, which step, what is written.
+
+use edgewalk_netlist::Signal;
+
+use super::Parts;
+use super::code::{Jump, Mode, PART_BITS, ROW_BITS};
+use super::control::Control;
+use super::digits::Digits;
+use super::shape::{channels, doublings, most_doublings};
+use super::words::Input;
+use crate::light_pass::LightPass;
+
+/// Connects the inputs of all lanes.
+pub(super) fn connect<'m>(
+    parts: &Parts<'_, 'm>,
+    control: &Control<'m>,
+    digits: &Digits<'m>,
+    input: &Input<'m>,
+    light_pass: LightPass<'m>,
+) {
+    let Parts { m, word, runs, .. } = parts;
+    m.comment("The step, a clock behind its word, and what is written, two clocks behind.");
+    let get = |name: &str| word.get(name);
+    let only = get("only");
+    let allowed = !(only.eq(3) & control.walked[0]) & !(only.eq(4) & !control.right);
+    let steps = (get("steps") & *runs & allowed).named("starts_step");
+    let later = |name: &str, signal| parts.later(name, signal);
+    let minus = get("minus") ^ (get("by_side") & control.right);
+    let told = [
+        ("base", later("step_base", get("base"))),
+        ("minus", later("step_minus", minus)),
+        ("by_a", later("step_by_a", get("by_a"))),
+        ("of_whole", later("step_of_whole", get("whole"))),
+        ("only_negative", later("step_only_negative", only.eq(1))),
+        ("only_positive", later("step_only_positive", only.eq(2))),
+    ];
+    let twice = |name: &str, signal| later(&format!("{name}_now"), later(&format!("{name}_next"), signal));
+    let write_row = twice("write_row", get("write_row")).zext(ROW_BITS);
+    let write_a = twice("write_a", get("write_a") & *runs);
+    let write_w = twice("write_w", get("write_w") & *runs);
+    let raised = later("step_raised", get("raised"));
+    let number = later("step_number", control.number);
+    let steps_later = later("does_step", steps);
+    let pass = light_pass.number(m, 1, 0, 1);
+    for (lane, instance) in parts.lanes.iter().enumerate() {
+        instance.connect("read_row", row(parts, control, digits, lane, pass));
+        instance.connect("takes", input.takes[lane]);
+        instance.connect("taken", input.taken[lane]);
+        instance.connect("write_row", input.takes[lane].mux(input.row, write_row));
+        instance.connect("write_a", write_a);
+        instance.connect("write_w", write_w);
+        for (name, signal) in told {
+            instance.connect(name, signal);
+        }
+        let rests = rests(parts, control, lane);
+        let own = rests.map(|rests| later(&format!("does_step{lane}"), steps & !rests));
+        instance.connect("steps", own.unwrap_or(steps_later));
+        let mut raises: Vec<u32> = Vec::new();
+        for (_, channel) in channels(parts.plan, lane) {
+            let bits = doublings(parts.plan, channel);
+            if raises.contains(&bits) {
+                continue;
+            }
+            raises.push(bits);
+            let alike = channels(parts.plan, lane).all(|(_, other)| doublings(parts.plan, other) == bits);
+            let of_rounds = channels(parts.plan, lane)
+                .filter(|(_, other)| doublings(parts.plan, other) == bits)
+                .map(|(round, _)| number.eq(round as u128))
+                .reduce(|any, one| any | one);
+            let raise = of_rounds.filter(|_| !alike).map_or(raised, |rounds| raised & rounds);
+            instance.connect(&format!("raise_{bits}"), raise);
+        }
+    }
+}
+
+/// A lane whose channel has fewer doublings than another of its round does not do the last of them.
+fn rests<'m>(parts: &Parts<'_, 'm>, control: &Control<'m>, lane: usize) -> Option<Signal<'m>> {
+    let most = most_doublings(parts.plan);
+    let spare = channels(parts.plan, lane)
+        .map(|(round, channel)| (round, most[round] - doublings(parts.plan, channel)));
+    let over = |(round, spare): (usize, u32)| {
+        let few = control.count.le(u128::from(spare));
+        if most.len() == 1 { few } else { few & control.number.eq(round as u128) }
+    };
+    let over = spare.filter(|(_, spare)| *spare > 0).map(over).reduce(|any, one| any | one)?;
+    Some(over & control.of_channels & parts.word.jumps(Jump::Again))
+}
+
+/// The place of the row that a lane reads.
+fn row<'m>(
+    parts: &Parts<'_, 'm>,
+    control: &Control<'m>,
+    digits: &Digits<'m>,
+    lane: usize,
+    pass: Signal<'m>,
+) -> Signal<'m> {
+    let Parts { m, word, .. } = parts;
+    let row = word.get("row");
+    let edge = control.edge(parts, lane);
+    let digit = match control.beside {
+        Some(beside) if lane > 0 && parts.has_own_edge(lane) => {
+            beside.mux(digits.of(parts, lane), digits.of(parts, 0))
+        }
+        _ => digits.of(parts, 0),
+    };
+    let table = row.slice(ROW_BITS - 1, 2);
+    let low = |low: Signal<'m>| m.cat(&[table, low]);
+    // The place of the vertex: an edge leads from 0 to 2, from 0 to 1, or from 1 to 2.
+    let place = row.slice(PART_BITS + 1, PART_BITS);
+    let upper = m.cat(&[m.lit(1, 0), edge.eq(2)]);
+    let lower = edge.eq(1).mux(m.lit(2, 1), 2);
+    let place = word.is_mode(Mode::Upper).mux(upper, word.is_mode(Mode::Lower).mux(lower, place));
+    let [first, second, third] = control.order;
+    let of_order = place.eq(0).mux(first, place.eq(1).mux(second, place.eq(2).mux(third, 3)));
+    let part = row.trunc(PART_BITS);
+    let value = (control.number.zext(PART_BITS) + super::code::FIRST_VALUE).named(&format!("value{lane}"));
+    let part = part.all().mux(value, part);
+    let of_vertex = m.cat(&[m.lit(1, 1), of_order, part]);
+    let is = |mode: Mode| word.is_mode(mode);
+    let of_vertices = is(Mode::Vertex) | is(Mode::Upper) | is(Mode::Lower);
+    let with_pass = m.cat(&[row.slice(ROW_BITS - 1, 1), pass]);
+    let named =
+        is(Mode::Digits).mux(low(digit), is(Mode::Edge).mux(low(edge), is(Mode::Pass).mux(with_pass, row)));
+    of_vertices.mux(of_vertex, named).named(&format!("row{lane}"))
+}
