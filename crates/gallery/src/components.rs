@@ -53,8 +53,8 @@ pub(crate) fn components() -> Result<Exhibit> {
         name: "components",
         title: "The components of a light, and k_s",
         cause: "Ambient light is the same everywhere, diffuse light bends little over a polygon, a highlight much (fig. 7.2). So \
-                what can be interpolated linearly depends on k_s beside k_d and k_a: matte, Gouraud shading is the truth to a few \
-                LSB, and its largest error grows with k_s. Constant shading is far off whatever k_s is: the sphere is no \
+                what can be interpolated linearly depends on k_s beside k_d and k_a: matte, Gouraud shading errs least, in the \
+                mean and at most, and both errors grow with k_s. Constant shading is far off whatever k_s is: the sphere is no \
                 polyhedron, which is the first of its conditions.",
         figures,
         views,

@@ -30,7 +30,7 @@ pub(crate) fn vertex_rule() -> Exhibit {
         name: "vertex-rule",
         title: "The odd-even rule at vertices (S11)",
         cause: "Where an edge is counted on its line Ymax, a vertex at which one edge ends and the next begins is two crossings. \
-                On line 3 at A there are three in all: the pixels are filled up to A, not filled where they should be, and filled behind \
+                So lines 3 and 5 have an odd number of crossings. On line 3 at A there are three in all: the pixels are filled up to A, not filled where they should be, and filled behind \
                 the last crossing to the end of the line. Where both edges end, or both begin, as at F or B, two crossings are right. Shorten each \
                 edge by its last line and all vertices are.",
         figures: vec![

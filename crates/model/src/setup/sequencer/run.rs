@@ -2,7 +2,7 @@
 
 use super::factors::{Digits, Pair};
 use super::lane::{Addend, Formats, Lane, Number, signed};
-use super::{Ran, SlowSetup};
+use super::slow::{Ran, SlowSetup};
 use crate::setup::Culled;
 use crate::tokens::{Prim, sign_extend};
 use edgewalk_machine::PortVertex;
