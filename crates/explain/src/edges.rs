@@ -9,7 +9,7 @@ use std::fmt::Write as _;
 /// A polygon whose edges cross the pixel's line, or end on it.
 #[derive(Serialize)]
 pub(crate) struct OnLine {
-    /// Its place among triangles and polygons.
+    /// Place of the polygon among triangles and polygons.
     id: usize,
     /// Its edge table, as the lecture prints it.
     table: String,

@@ -32,7 +32,7 @@ pub(crate) struct Line {
     /// Along the main axis, then across it.
     from: [i64; 2],
     to: [i64; 2],
-    /// Its main axis is y.
+    /// The main axis is y.
     steep: bool,
     grid: Grid,
 }

@@ -25,15 +25,15 @@ use sweep::Sweep;
 /// Why a frame has no order that a line could decide by itself.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum NotOpaque {
-    /// Its depth function is another than `less` or `lequal`, or it stores no depths.
+    /// The depth function is another than `less` or `lequal`, or it stores no depths.
     Depth,
-    /// It blends, or does not store all colours.
+    /// The frame blends, or does not store all colours.
     Blend,
     /// The rules change between its triangles.
     Passes,
     /// A light casts shadows, or each pixel is shaded.
     Light,
-    /// It has lines, which have no edges to be inside of.
+    /// The frame has lines, which have no edges to be inside of.
     Lines,
 }
 
@@ -111,7 +111,7 @@ fn opaque(frame: &Frame) -> Result<DepthFunc, NotOpaque> {
 /// Where a span of a polygon begins or ends on a line.
 struct Crossing<'a> {
     column: u32,
-    /// It begins here.
+    /// The span begins here.
     begins: bool,
     seen: Seen<'a>,
 }

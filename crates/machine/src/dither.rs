@@ -9,9 +9,9 @@ use crate::plan::Plan;
 /// Whether DITHER drops fragments by a pattern, as many as k_t says.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum ScreenDoor {
-    /// It drops none.
+    /// No fragment is dropped.
     No,
-    /// It drops a fragment where the pattern's number is below the triangle's k_t.
+    /// A fragment is dropped where the pattern's number is below the triangle's k_t.
     Yes,
 }
 
@@ -20,7 +20,7 @@ pub enum ScreenDoor {
 pub struct Dither {
     /// Bits n of a colour in the frame memory; 0: all b of them.
     pub bits: u32,
-    /// It drops fragments.
+    /// The machine drops fragments.
     pub screen_door: ScreenDoor,
 }
 
@@ -38,13 +38,13 @@ impl Dither {
         self.rounds() || self.drops()
     }
 
-    /// It rounds colours to fewer bits.
+    /// The machine rounds colours to fewer bits.
     #[must_use]
     pub fn rounds(&self) -> bool {
         self.bits > 0
     }
 
-    /// It drops fragments.
+    /// The machine drops fragments.
     #[must_use]
     pub fn drops(&self) -> bool {
         self.screen_door == ScreenDoor::Yes

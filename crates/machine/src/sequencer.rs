@@ -19,7 +19,7 @@ pub const NAMED_ROWS: u8 = 64;
 /// The program of one machine.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Program {
-    /// Its words; the first is that which waits for a triangle.
+    /// Words of the program; the first one waits for a triangle.
     pub words: Vec<Word>,
     rows: BTreeMap<String, u8>,
     labels: BTreeMap<String, u16>,

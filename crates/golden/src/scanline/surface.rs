@@ -18,7 +18,7 @@ pub(super) struct Surface {
 }
 
 impl Surface {
-    /// Its edges snapped to so many bits; none of a line, which has no area.
+    /// A primitive with its edges snapped to so many bits; none for a line, which has no area.
     pub fn new(primitive: Primitive, mode: ShadeMode, subpixel_bits: u32) -> Option<Self> {
         let table = |polygon: &Polygon| EdgeTable::new(polygon, mode, Grid::subpixels(subpixel_bits));
         let doubt = Fill::Exact { subpixel_bits }.doubt();
@@ -39,7 +39,7 @@ impl Surface {
 pub(super) struct Seen<'a> {
     /// Place in the list.
     pub id: usize,
-    /// Its first pixel on the screen.
+    /// First pixel of the span on the screen.
     pub start: u32,
     pub span: Span<'a>,
     pub surface: &'a Surface,

@@ -11,7 +11,7 @@ type Owned<'a> = (&'a Edge, usize);
 
 /// The edges that cross a line.
 pub(super) struct Sweep<'a> {
-    /// Those that enter later, by their first lines.
+    /// Surfaces that enter later, by their first lines.
     waiting: Peekable<IntoIter<Owned<'a>>>,
     active: Vec<Owned<'a>>,
 }

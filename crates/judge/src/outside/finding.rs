@@ -77,7 +77,7 @@ pub struct Finding {
     pub cause: Cause,
     /// Place in the input of the triangle that the reference shows, -1 none.
     pub triangle: i32,
-    /// That of the triangle that the picture shows, where it is known to be another.
+    /// Place in the input of the triangle that the picture shows, where it is known to be another.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub shown: Option<i32>,
     /// Depths in 0 to 1.

@@ -4,7 +4,7 @@
 /// A word of the program.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Word {
-    /// Its line of the listing, without comment and label.
+    /// The word's line of the listing, without comment and label.
     pub text: String,
     /// The step of A and W; none: both stay.
     pub step: Option<Step>,
@@ -92,7 +92,7 @@ pub enum Only {
 /// Which row is read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Row {
-    /// This one.
+    /// The row of this number.
     Named(u8),
     /// Of the table that begins here: the row of the digits of f and g, 2 f + g.
     Digits(u8),
@@ -131,9 +131,9 @@ pub enum Part {
 /// A factor of a sum.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Factor {
-    /// That of the table's third row.
+    /// The factor of the table's third row.
     F,
-    /// That of the table's second row; behind it the leading digits of both are skipped.
+    /// The factor of the table's second row; behind it the leading digits of both are skipped.
     G,
 }
 
@@ -190,19 +190,19 @@ pub enum Control {
     Zeros(u16),
     /// The digits are done; that place while there are more.
     More(u16),
-    /// That place if A < 0.
+    /// The named place if A < 0.
     Negative(u16),
-    /// That place if a checked number does not fit.
+    /// The named place if a checked number does not fit.
     Unfit(u16),
-    /// That place if the upper part has no line.
+    /// The named place if the upper part has no line.
     NoUpper(u16),
-    /// That place if the lower part has no line.
+    /// The named place if the lower part has no line.
     NoLower(u16),
-    /// That place for the next round, if there is one.
+    /// The named place for the next round, if there is one.
     Rounds(u16),
-    /// That place.
+    /// The named place.
     Goto(u16),
-    /// That place, until `Return`.
+    /// The named place, until `Return`.
     Call(u16),
     /// The one behind the call.
     Return,

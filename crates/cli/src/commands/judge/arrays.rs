@@ -105,7 +105,7 @@ impl Array {
         Ok(Array(array))
     }
 
-    /// Its values, if they are of this type; else the array back.
+    /// The array's values, if they are of this type; else the array back.
     fn values<T: Deserialize>(self) -> Result<Result<Vec<T>>, Array> {
         match self.0.try_data::<T>() {
             Ok(values) => {

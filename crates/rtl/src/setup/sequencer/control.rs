@@ -29,7 +29,7 @@ pub(super) struct Control<'m> {
     pub walked: [Signal<'m>; 2],
     /// Doublings that are left.
     pub count: Signal<'m>,
-    /// They are those of a channel.
+    /// The doublings are those of a channel.
     pub of_channels: Signal<'m>,
 }
 

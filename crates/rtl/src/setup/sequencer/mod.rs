@@ -40,7 +40,7 @@ struct Parts<'a, 'm> {
     lanes: Vec<Instance<'m>>,
     /// The word that is executed.
     word: Decoded<'m>,
-    /// It is one: the ROM has been read since the reset.
+    /// The word is valid: the ROM has been read since the reset.
     runs: Signal<'m>,
 }
 
