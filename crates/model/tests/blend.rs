@@ -285,7 +285,7 @@ fn clocks_a_fragment() {
 fn random_machines_draw_what_their_fragments_come_to() {
     let mut rng = StdRng::seed_from_u64(7);
     let (mut all, mut fragments, mut kinds) = (Events::default(), 0, [0; 3]);
-    for number in 0..400 {
+    for number in 0..600 {
         let width = ["2", "12", "40"][number % 3];
         let fixed = [("screen.width", width), ("screen.height", width)];
         let plan = random_machine(&fixed, &mut rng);
