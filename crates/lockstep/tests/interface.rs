@@ -94,7 +94,7 @@ fn a_port_of_another_width_is_refused() {
 fn triangles_pass_the_port_and_come_back() {
     let mut rng = Pcg64Mcg::seed_from_u64(4);
     let (mut checked, mut lines) = (0, 0);
-    for _ in 0..1000 {
+    for _ in 0..3000 {
         let plan = random_machine(&mut rng);
         let triangle = common::triangles::random_primitive(&plan, &mut rng);
         let tag = rng.random::<u32>().checked_shr(32 - plan.tag_bits).unwrap_or(0);

@@ -96,7 +96,7 @@ fn shares(machines: &[Plan]) -> Vec<u64> {
 
 /// So many machines.
 fn whole_machines(count: usize) {
-    let mut rng = Pcg64Mcg::seed_from_u64(3);
+    let mut rng = Pcg64Mcg::seed_from_u64(4);
     let machines: Vec<Plan> = (0..count).map(|number| drawn_machine(number, &mut rng)).collect();
     let all = compared(&machines);
     let mut extra = [0; 5];
@@ -120,7 +120,7 @@ fn whole_machines(count: usize) {
 
 /// So many machines with BUMP.
 fn whole_reliefs(count: usize) {
-    let mut rng = Pcg64Mcg::seed_from_u64(16);
+    let mut rng = Pcg64Mcg::seed_from_u64(17);
     let drawn = std::iter::repeat_with(|| random_machine(&mut rng));
     let machines: Vec<Plan> = drawn.filter(|plan| plan.shade.bumps()).take(count).collect();
     let all = compared(&machines);
@@ -136,7 +136,7 @@ fn whole_reliefs(count: usize) {
 
 /// So many machines with LAMP.
 fn whole_lamps(count: usize) {
-    let mut rng = Pcg64Mcg::seed_from_u64(17);
+    let mut rng = Pcg64Mcg::seed_from_u64(18);
     let drawn = std::iter::repeat_with(|| random_machine(&mut rng));
     let machines: Vec<Plan> = drawn.filter(|plan| plan.shade.is_positional()).take(count).collect();
     let all = compared(&machines);
