@@ -138,6 +138,9 @@ impl Shape {
     ) -> Option<Shape> {
         let one = 1i64 << t;
         let far = (4 * one).min(i64::from(machine.height) * one / 3);
+        if far < one {
+            return None; // a screen of one or two lines has no room for it
+        }
         let area = 1i64 << (t + step + 2);
         let v0 = random.random_range(1 - one..=0);
         // Whole odd numbers du2, dv2 without a common divisor; then du1 dv2 - du2 dv1 = ±area has solutions.
