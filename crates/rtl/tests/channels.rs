@@ -4,7 +4,7 @@
 use crate::drive;
 use crate::drive::{Memory, Seen};
 use crate::random;
-use edgewalk_machine::{BlendKind, Channel, Dither, Kind, Machine, Plan, Precision, ShadeKind};
+use edgewalk_machine::{BlendKind, Channel, Dither, Kind, Machine, Plan, Precision, SetupKind, ShadeKind};
 use edgewalk_rtl as rtl;
 use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64Mcg;
@@ -46,6 +46,7 @@ fn machines(rng: &mut Pcg64Mcg) -> (Plan, Plan) {
         // Without BLEND, DITHER and SHADE a fragment's values are written as they are, by one link.
         (machine.blend.kind, machine.shade.kind) = (BlendKind::None, ShadeKind::None);
         machine.dither = Dither::default();
+        machine.setup_kind = SetupKind::Parallel; // the driver offers whole triangles
         machine.width = rng.random_range(1..=16);
         machine.height = rng.random_range(1..=16);
         machine.guard_bits = rng.random_range(4..=6);
