@@ -1,4 +1,4 @@
-//! The port tables of `docs/machine.md`, section 18, are what the units declare.
+//! The port tables of `docs/machine.md`, section 20, are what the units declare.
 //!
 //! `EDGEWALK_BLESS=1 cargo test -p edgewalk-lockstep tables::` rewrites them.
 

@@ -45,7 +45,8 @@ impl Machine {
             EdgeKind::Slope => slope_edge_error(self.edge_fraction, self.height),
         };
         let beyond = slope.round(0, Rounding::Ceiling).numerator() as u32; // at most 2^31 px
-        let guard = (1u32 << self.guard_bits.min(31)) - 1;
+        // POLY moves from one pixel of the screen to another.
+        let guard = if self.polygon.is_there() { 0 } else { (1u32 << self.guard_bits.min(31)) - 1 };
         Screen { width: self.width, height: self.height, guard_columns: guard.saturating_add(beyond) }
     }
 

@@ -24,8 +24,7 @@ impl Machine {
         let channels: Vec<Channel> = depth.chain(units::memory::wants(self)).chain(others).collect();
         check(self, &channels)?;
         let kt_bits = if self.has_triangle_kt() { self.blend.kt_bits } else { 0 };
-        let port =
-            PortStamp::of(self.guard_bits, self.subpixel_bits, &channels, kt_bits, self.polygon.has_lines());
+        let port = PortStamp::of(self.guard_bits, self.subpixel_bits, &channels, kt_bits, &self.polygon);
         let terms = terms(self);
         Ok(Plan { machine: self.clone(), channels, terms, widths: self.widths(), port })
     }
@@ -101,6 +100,6 @@ mod tests {
             let machine = Machine::preset(name).expect("listed");
             assert!(machine.plan().is_ok(), "{name}");
         }
-        assert_eq!(PRESETS.len(), 4);
+        assert_eq!(PRESETS.len(), 5);
     }
 }

@@ -19,6 +19,7 @@ pub const MAP_BITS: u32 = 32;
 pub(crate) fn check(machine: &Machine, channels: &[Channel]) -> Result<(), MachineError> {
     screen(machine)?;
     lines(machine)?;
+    polygons(machine)?;
     for channel in channels {
         formats(machine, channel)?;
     }
@@ -124,6 +125,21 @@ fn lines(machine: &Machine) -> Result<(), MachineError> {
         refusal("lines need screen.subpixel_bits of 1 or more, as one begins half a pixel beside its end")
     } else if machine.shade.is_there() {
         refusal("TERM walks down only, and a line may go up; lines need shade.kind = none")
+    } else {
+        Ok(())
+    }
+}
+
+/// POLY wants the lines of exact fill, and SETUP side by side.
+fn polygons(machine: &Machine) -> Result<(), MachineError> {
+    let refusal =
+        |reason: &str| Err(MachineError::rule(machine, "polygon.edges", reason.to_owned(), "0".to_owned()));
+    if !machine.polygon.is_there() {
+        Ok(())
+    } else if machine.fill == Fill::Textbook {
+        refusal("POLY wants edge.fill = exact: textbook fill draws both ends of a span, and its pixels twice")
+    } else if machine.setup_kind == SetupKind::Sequenced {
+        refusal("the program of SETUP has no steps for polygons; POLY wants setup.kind = parallel")
     } else {
         Ok(())
     }

@@ -64,7 +64,7 @@ pub use machine::{EdgeKind, Fill, Hazard, Machine, SetupKind};
 pub use plan::Plan;
 pub use polygon::{Lines, Polygon};
 pub use record::{Entry, Record};
-pub use role::Role;
+pub use role::{Role, Sides, Window};
 pub use shade::{Bump, Shade, ShadeColour, ShadeKind, ShadeLight, Texture, Walk};
 pub use shadow::{Gate, LIGHT_SPACE, OwnPass, Project, Shadow, ShadowLight, Transmits};
 pub use term::Term;

@@ -1,6 +1,7 @@
 //! Polygons and lines: their keys.
 
-use crate::key::{Domain, Key, word};
+use crate::key::Domain::OneOf;
+use crate::key::{Domain, Key, number, word};
 
 /// Whether the port takes lines.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -14,11 +15,19 @@ pub enum Lines {
 /// What the port takes besides triangles.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Polygon {
+    /// N: places of POLY's table of edges; 0: EDGE walks triangles, there is no POLY.
+    pub edges: u32,
     /// Lines.
     pub lines: Lines,
 }
 
 impl Polygon {
+    /// POLY stands in EDGE's place: the port takes polygons.
+    #[must_use]
+    pub fn is_there(&self) -> bool {
+        self.edges > 0
+    }
+
     /// The port takes lines.
     #[must_use]
     pub fn has_lines(&self) -> bool {
@@ -29,17 +38,28 @@ impl Polygon {
 /// Triangles only.
 impl Default for Polygon {
     fn default() -> Self {
-        Polygon { lines: Lines::No }
+        Polygon { edges: 0, lines: Lines::No }
     }
 }
 
 /// The keys of polygons and lines.
-pub const KEYS: &[Key] = &[Key {
-    absent: Some(Lines::No as u32),
-    ..word!(
-        "polygon.lines",
-        Lines { "no" => No, "yes" => Yes },
-        "the port takes triangles only (no), or lines of one pixel too (yes)",
-        polygon.lines
-    )
-}];
+pub const KEYS: &[Key] = &[
+    Key {
+        absent: Some(0),
+        ..number!(
+            "polygon.edges",
+            OneOf(&[0, 8, 16, 32, 64, 128]),
+            "edges that POLY's table holds, so that the port takes polygons; 0: EDGE, triangles only",
+            polygon.edges
+        )
+    },
+    Key {
+        absent: Some(Lines::No as u32),
+        ..word!(
+            "polygon.lines",
+            Lines { "no" => No, "yes" => Yes },
+            "the port takes no lines (no), or lines of one pixel too (yes)",
+            polygon.lines
+        )
+    },
+];

@@ -7,6 +7,7 @@ use crate::machine::{EdgeKind, Fill, Hazard, Machine};
 pub const PRESETS: &[(&str, &str)] = &[
     ("default", "640x480, exact fill, 24-bit depth, 8-bit colour, one pixel a clock"),
     ("textbook", "chapter 7: integer vertices, inclusive spans, slopes, one shared adder pipeline"),
+    ("polygon", "the default machine with POLY in EDGE's place: polygons of up to 64 edges"),
     (
         "small",
         "240x160, 16-bit depth, 5-bit colour, one pixel a clock, one lane: its cells fit an iCE40 UP5K, its memories do not",
@@ -35,6 +36,7 @@ impl Machine {
                 hazard: Hazard::Drain,
                 ..Machine::default()
             }),
+            "polygon" => Some(Machine::default().with(|machine| machine.polygon.edges = 64)),
             "small" => Some(Machine {
                 width: 240,
                 height: 160,

@@ -3,6 +3,7 @@
 pub mod tokens;
 pub mod setup;
 pub mod edge;
+pub mod poly;
 pub mod span;
 pub mod term;
 pub mod pixel;
@@ -52,7 +53,7 @@ macro_rules! units {
     };
 }
 
-units! { setup, edge, span, term, pixel, texel, bump, normal, lamp, shade, project, shadow, dither, depth, blend }
+units! { setup, edge, poly, span, term, pixel, texel, bump, normal, lamp, shade, project, shadow, dither, depth, blend }
 
 impl Events {
     /// Names of the events that were not met.

@@ -2,7 +2,6 @@
 
 use crate::channel::{Channel, Kind, MAX_CHANNELS};
 use crate::plan::Plan;
-use crate::role::Role;
 use crate::stamp::PortStamp;
 
 /// A vertex at the port of one machine: snapped and quantised. Only a [`Plan`] makes one.
@@ -12,8 +11,9 @@ pub struct PortVertex {
     y: i32,
     values: [i64; MAX_CHANNELS],
     kt: u16,
-    /// Of the second vertex: that of all three.
-    pub(crate) role: Role,
+    /// A part of what all three are: kind, `flat` and the window's column at the first, the window's line and `sides`
+    /// at the second, the line behind the window at the third.
+    pub(crate) own: u16,
     stamp: PortStamp,
 }
 
@@ -162,7 +162,7 @@ impl Plan {
                 return Err(VertexError::Channel { channel: "kt", value: *value, low: 0.0, high: 1.0 });
             }
         };
-        Ok(PortVertex { x, y, values: port, kt, role: Role::Triangle, stamp: self.port })
+        Ok(PortVertex { x, y, values: port, kt, own: 0, stamp: self.port })
     }
 
     /// A vertex of these numbers as the port has them: x and y with `s`, values with `e` fraction bits,
@@ -176,7 +176,7 @@ impl Plan {
             *port = *value;
         }
         let kt = if self.has_triangle_kt() { values.get(channels).map_or(0, |kt| *kt as u16) } else { 0 };
-        PortVertex { x, y, values: port, kt, role: Role::Triangle, stamp: self.port }
+        PortVertex { x, y, values: port, kt, own: 0, stamp: self.port }
     }
 
     /// Takes the triangle with this number if its vertices were made for this machine's port.

@@ -19,7 +19,7 @@ pub struct Widths {
     pub x: u32,
     /// Line of the screen, or of the map that the machine draws: yb.
     pub y: u32,
-    /// Line of a triangle on its way to SPAN: yb, and with lines max(xb, yb), as a flat one has its columns there.
+    /// lb: line of a triangle on its way to SPAN: yb, and with lines max(xb, yb), as a flat one has its columns there.
     pub line: u32,
     /// Address of a pixel, y·2^xb + x, or of a texel that the machine draws, y·2^SB + x.
     pub address: u32,

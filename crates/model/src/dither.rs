@@ -8,7 +8,7 @@
 //!
 //! Timing: none; a fragment is offered on in the cycle in which it comes.
 //!
-//! Rules: `docs/machine.md`, section 19. Not modelled: nothing.
+//! Rules: `docs/machine.md`, section 18. Not modelled: nothing.
 
 mod view;
 

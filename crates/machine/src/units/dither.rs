@@ -11,7 +11,7 @@ use crate::unit::{Ports, UnitSpec, events};
 pub const SPEC: UnitSpec = UnitSpec {
     name: "dither",
     purpose: "rounds colours to fewer bits by a pattern, and drops fragments by the same pattern",
-    section: 19,
+    section: 18,
     present: there,
     wants: |_: &Machine| Vec::<Channel>::new(),
     ports,

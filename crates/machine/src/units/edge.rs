@@ -12,7 +12,7 @@ pub const SPEC: UnitSpec = UnitSpec {
     name: "edge",
     purpose: "walks the major and the minor edge of a triangle, a line a step",
     section: 3,
-    present: always,
+    present: |plan: &Plan| !plan.polygon.is_there(),
     wants: |_: &Machine| Vec::new(),
     ports,
     events: EVENTS,

@@ -46,5 +46,7 @@ events! {
     no_lower_part = "triangles without a lower part on the screen, n2 = 0" if always;
     line_flat = "lines along a row of pixels, with x and y exchanged, that have one on the screen" if |plan| plan.polygon.has_lines();
     line_steep = "lines along a column of pixels that have one on the screen" if |plan| plan.polygon.has_lines();
+    window_top = "triangles and parts of polygons that the first line of the window cuts, on the screen" if |plan| plan.polygon.is_there();
+    window_bottom = "triangles and parts of polygons that the end of the window cuts, above the screen's" if |plan| plan.polygon.is_there();
     knee_on_line = "triangles of two parts whose knee lies on a line of pixel centres" if always;
 }

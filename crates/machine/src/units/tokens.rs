@@ -15,6 +15,11 @@ pub const EDGES: [&str; 3] = ["major", "minor1", "minor2"];
 #[must_use]
 pub fn results(plan: &Plan) -> &'static [(&'static str, &'static str)] {
     match plan.fill {
+        _ if plan.polygon.is_there() => &[
+            ("start", "value at pixel (start_x, start_y)"),
+            ("d0", "step to the next line"),
+            ("g", "step to the next pixel to the right"),
+        ],
         Fill::Exact => &[
             ("start", "value at the first pixel of the first line"),
             ("d0", "step to the next line, edge without carry"),
@@ -62,7 +67,7 @@ pub fn record(plan: &Plan) -> Option<Field> {
     plan.shade.is_there().then(|| Field::count("record", bits, "record with the triangle's terms"))
 }
 
-/// A triangle or line at the port: three vertices, its k_t, its role and the tag.
+/// A triangle, line or part of a polygon at the port: three vertices, its k_t, its role, its window and the tag.
 #[must_use]
 pub fn triangle(plan: &Plan) -> Vec<Field> {
     let position = Format::signed(plan.guard_bits + 1, plan.subpixel_bits);
@@ -74,9 +79,29 @@ pub fn triangle(plan: &Plan) -> Vec<Field> {
         fields.extend(plan.channels().iter().map(value));
     }
     fields.extend(triangle_kt(plan));
-    fields.extend(thin(plan));
+    if plan.polygon.is_there() {
+        fields.extend([
+            Field::count("kind", 2, "0 triangle, 1 edges, 2 edges and plane, 3 line"),
+            Field::count("sides", 3, "of kinds 1 and 2: sides 0-1, 1-2 and 2-0 are edges, a bit each"),
+        ]);
+        fields.extend(start_pixel(plan));
+        let [_, bits] = plan.window_bits();
+        fields.push(Field::count("end_y", bits + 1, "line behind the last that is drawn"));
+        fields.extend(thin(plan).into_iter().filter(|field| field.name == "flat"));
+    } else {
+        fields.extend(thin(plan));
+    }
     fields.extend(tag(plan));
     fields
+}
+
+/// The pixel at which values start, in a machine with POLY.
+fn start_pixel(plan: &Plan) -> [Field; 2] {
+    let [x, y] = plan.window_bits();
+    [
+        Field::count("start_x", x, "column of the pixel at which values start"),
+        Field::count("start_y", y, "its line, the first that is drawn"),
+    ]
 }
 
 /// What tells a line from a triangle, in a machine that takes lines.
@@ -111,7 +136,7 @@ fn edge(plan: &Plan, edge: &str) -> Vec<Field> {
     fields
 }
 
-/// SETUP to EDGE: a triangle ready to be walked.
+/// SETUP to EDGE or POLY: a triangle, or three edges of a polygon, ready to be walked.
 #[must_use]
 pub fn prim(plan: &Plan) -> Vec<Field> {
     let w = plan.widths();
@@ -121,6 +146,14 @@ pub fn prim(plan: &Plan) -> Vec<Field> {
         Field::count("n2", w.line + 1, "lines of the lower part"),
         Field::count("major_right", 1, "the major edge is the right one"),
     ];
+    if plan.polygon.is_there() {
+        fields.extend([
+            Field::count("sides", 3, "major, first and second minor edge count, a bit each"),
+            Field::count("ends", 1, "the last edges of a polygon, with its plane"),
+            Field::count("void", 1, "the plane has no area: nothing is drawn"),
+        ]);
+        fields.extend(start_pixel(plan));
+    }
     fields.extend(thin(plan));
     fields.extend(EDGES.iter().flat_map(|name| edge(plan, name)));
     for channel in plan.channels() {
@@ -152,7 +185,7 @@ pub fn held_by_edge(plan: &Plan) -> Vec<Field> {
     held(plan).into_iter().chain(record(plan)).collect()
 }
 
-/// EDGE to SPAN: one line of a triangle.
+/// EDGE to SPAN: one line of a triangle; POLY to SPAN: one span of a polygon.
 #[must_use]
 pub fn line(plan: &Plan) -> Vec<Field> {
     let w = plan.widths();
