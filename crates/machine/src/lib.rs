@@ -38,6 +38,7 @@ pub mod plan;
 pub mod role;
 pub mod record;
 pub mod vertex;
+pub mod contours;
 pub mod sequencer;
 pub mod draw;
 pub mod activity;

@@ -14,6 +14,7 @@ mod hazards;
 mod lines;
 mod own_pass;
 mod pairs;
+mod polygon;
 mod passage;
 mod perspective;
 mod project;

@@ -56,6 +56,7 @@ fn draw(rng: &mut Pcg64Mcg) -> Machine {
         machine.shade.fraction = machine.shade.fraction.min(32);
         machine.shade.linear_fraction = machine.shade.linear_fraction.min(39);
     }
+    machine.polygon.edges = 0;
     // What would make nearly all of them clash.
     machine.guard_bits =
         if rng.random_bool(0.1) { rng.random_range(8..=14) } else { rng.random_range(2..=6) };

@@ -4,6 +4,7 @@
 pub mod blend;
 pub mod check;
 pub mod depth;
+pub mod polygon;
 pub mod rule;
 pub mod shade;
 
@@ -147,6 +148,7 @@ pub fn random_machine(fixed: &[(&str, &str)], rng: &mut impl Rng) -> Plan {
             };
             (key.set)(&mut machine, value);
         }
+        machine.polygon.edges = 0; // tests/polygon.rs
         machine.shade.kind = ShadeKind::None;
         machine.dither = Dither::default();
         for (key, value) in fixed {
