@@ -8,6 +8,7 @@ use crate::edge::Edge;
 use crate::lamp::Lamp;
 use crate::normal::Normal;
 use crate::pixel::Pixel;
+use crate::poly::Poly;
 use crate::ports::Ported;
 use crate::project::Project;
 use crate::shade::Shade;
@@ -31,6 +32,7 @@ pub trait Visit<const C: usize> {
 pub fn alone<const C: usize, V: Visit<C>>(plan: &Plan, name: &str, visit: V) -> Option<V::Out> {
     Some(match name {
         "edge" => visit.visit(Edge::<C>::new(plan)),
+        "poly" => visit.visit(Poly::<C>::new(plan)),
         "span" => visit.visit(Span::<C>::new(plan)),
         "term" => visit.visit(Term::new(plan)),
         "pixel" => visit.visit(Pixel::<C>::new(plan)),

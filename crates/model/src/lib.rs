@@ -30,6 +30,7 @@ pub mod ports;
 pub mod setup;
 pub mod counters;
 pub mod edge;
+pub mod poly;
 pub mod span;
 pub mod term;
 pub mod pixel;
@@ -47,6 +48,7 @@ pub mod alone;
 // The machine.
 pub mod io;
 pub mod stage;
+pub mod walker;
 pub mod wires;
 pub mod machine;
 // The machine with its memories.

@@ -1,8 +1,8 @@
 //! The machine: the units wired together, one clock.
 //!
 //! ```text
-//!  tri ─> SETUP ─prim─> EDGE ─line─> SPAN ─span─> PIXEL ─frag─> DEPTH ─> wr
-//!                         └────────── gradients ───┘              ├─> rd, <─ data
+//!  tri ─> SETUP ─prim─> EDGE or POLY ─line─> SPAN ─span─> PIXEL ─frag─> DEPTH ─> wr
+//!                                 └────────── gradients ───┘              ├─> rd, <─ data
 //!     with SHADOW, before DEPTH: ─> [PROJECT] ─> SHADOW ─shaded─> DEPTH
 //!     with TERM and SHADE: SPAN ─span─> TERM ─walked─> PIXEL ─frag─> [TEXEL] ─> [BUMP] ─> [NORMAL or LAMP] ─> SHADE ─tinted─> DEPTH
 //!                                with BLEND, for wr: ─> zwr, ─pass─> BLEND ─> crd, <─ cdata, ─> cwr
@@ -10,7 +10,7 @@
 //! Data runs to the right, readies to the left within the cycle. [`Model::cycle`] therefore works out the readies from
 //! DEPTH back to SETUP, and then clocks the units in the same order, so that each still sees its source as it was.
 //!
-//! Rules: `docs/machine.md`, sections 8 to 17.
+//! Rules: `docs/machine.md`, sections 8 to 19.
 
 mod links;
 mod view;
@@ -20,7 +20,6 @@ use crate::Events;
 use crate::blend::{Blend, BlendOutputs};
 use crate::counters::{Counters, one_more};
 use crate::depth::Depth;
-use crate::edge::Edge;
 use crate::io::{Inputs, Outputs};
 use crate::pixel::Pixel;
 use crate::setup::Setup;
@@ -28,6 +27,7 @@ use crate::span::Span;
 use crate::stage::{self, Made, Stage};
 use crate::term::{Term, Walked};
 use crate::tokens::{FEW, Fragment, Line};
+use crate::walker::Walker;
 use crate::wires::{Offers, Wires};
 use crate::word_memory::{Ask, MEMORIES, WordIn};
 use edgewalk_machine::{Activity, Plan};
@@ -39,7 +39,7 @@ pub struct Model<const C: usize> {
     /// Triangles to increments.
     pub setup: Setup<C>,
     /// Increments to lines.
-    pub edge: Edge<C>,
+    pub walker: Walker<C>,
     /// Lines to spans.
     pub span: Span<C>,
     term: Option<Term>,
@@ -67,7 +67,7 @@ impl<const C: usize> Model<C> {
         let pipe = stage::pipe(plan);
         let mut model = Model {
             setup: Setup::new(plan),
-            edge: Edge::new(plan),
+            walker: Walker::new(plan),
             span: Span::new(plan),
             term: plan.shade.is_there().then(|| Term::new(plan)),
             pixel: Pixel::new(plan),
@@ -160,7 +160,7 @@ impl<const C: usize> Model<C> {
     /// Nothing is held behind SETUP.
     #[inline]
     fn at_rest(&self) -> bool {
-        !self.edge.running()
+        !self.walker.running()
             && !self.span.line_held()
             && self.span.span().is_none()
             && !self.pixel.active()
@@ -177,7 +177,7 @@ impl<const C: usize> Model<C> {
     }
 
     /// A cycle in which SPAN, PIXEL and DEPTH have nothing to move and nothing is offered to them: they stay as they
-    /// are, and so only SETUP and the EDGE that may take its prim are clocked.
+    /// are, and so only SETUP and the EDGE or POLY that may take its prim are clocked.
     #[inline(always)]
     fn cycle_at_rest(&mut self, inputs: &Inputs) -> Outputs<C> {
         let tri_ready = self.setup.tri_ready();
@@ -186,9 +186,9 @@ impl<const C: usize> Model<C> {
         if C > FEW {
             self.offers.asks.fill(Ask::default());
         }
-        let prim_ready = self.edge.prim_ready(false);
-        self.edge.step(self.setup.prim(), false, false, &mut self.events);
         let light_pass = C > FEW && inputs.shadow.light_pass;
+        let prim_ready = self.walker.prim_ready(self.setup.prim(), false);
+        self.walker.step(self.setup.prim(), false, false, light_pass, &mut self.events);
         let takes = self.setup.takes(inputs.tri.is_some());
         self.setup.step(inputs.tri, prim_ready, light_pass, &mut self.events);
         if takes {
@@ -282,13 +282,13 @@ impl<const C: usize> Model<C> {
     /// PIXEL and TERM.
     #[inline(always)]
     fn step_pixel(&mut self, inputs: &Inputs, wires: &Wires, light_pass: bool) {
-        let Model { edge, span, term, pixel, counters, events, .. } = self;
+        let Model { walker, span, term, pixel, counters, events, .. } = self;
         let (span, span_ready) = (span.span(), wires.span_ready());
         let walked = || term.as_ref().map_or_else(Walked::default, Term::walked);
         if span_ready && span.is_some() {
             one_more(&mut counters.spans);
         }
-        let held = (edge.gradient(), edge.kt());
+        let held = (walker.gradient(), walker.kt());
         pixel.step(span.filter(|_| wires.there), held, walked, wires.ready(0), light_pass, events);
         if C > FEW
             && let Some(term) = term
@@ -298,7 +298,7 @@ impl<const C: usize> Model<C> {
         }
     }
 
-    /// SPAN, EDGE and SETUP.
+    /// SPAN, EDGE or POLY, and SETUP.
     #[inline(always)]
     fn step_lines(
         &mut self,
@@ -307,23 +307,22 @@ impl<const C: usize> Model<C> {
         light_pass: bool,
         tell: impl FnOnce(&Line<C>),
     ) {
-        let Model { setup, edge, span, counters, events, .. } = self;
-        if !span_ready && edge.running() && span.stands_still() {
+        let Model { setup, walker, span, counters, events, .. } = self;
+        if !span_ready && span.stands_still() && walker.waits(events) {
             // So most cycles of a long span go by.
-            edge.wait(events);
             setup.step(inputs.tri, false, light_pass, events);
             return;
         }
         let fresh_queued = span.fresh_queued();
-        let line = edge.line().filter(|_| span.line_ready());
+        let line = walker.line().filter(|_| span.line_ready());
         let line_ready = line.is_some();
         if let Some(line) = line {
             one_more(&mut counters.lines);
             tell(line);
         }
         span.step(line, span_ready, light_pass, events);
-        let prim_ready = edge.prim_ready(fresh_queued);
-        edge.step(setup.prim(), fresh_queued, line_ready, events);
+        let prim_ready = walker.prim_ready(setup.prim(), fresh_queued);
+        walker.step(setup.prim(), fresh_queued, line_ready, light_pass, events);
         setup.step(inputs.tri, prim_ready, light_pass, events);
     }
 
@@ -335,7 +334,7 @@ impl<const C: usize> Model<C> {
 
     fn reset(&mut self) {
         self.setup.reset();
-        self.edge.reset();
+        self.walker.reset();
         self.span.reset();
         self.pixel.reset();
         self.depth.reset();

@@ -45,7 +45,7 @@ macro_rules! blank_of {
     };
 }
 
-/// Channels of a machine without BLEND, DITHER, TERM and SHADE and channels of the user's own: units of `C` = 4 serve it, of `C` = 8 any machine.
+/// Channels of a machine without POLY, BLEND, DITHER, TERM and SHADE and channels of the user's own: units of `C` = 4 serve it, of `C` = 8 any machine.
 pub const FEW: usize = 4;
 
 /// One word per channel, in the order of [`Plan::channels`]: z, r, g, b, then the user's own; behind the last 0. Words of
@@ -60,6 +60,7 @@ pub type OutputWords<const C: usize> = [u32; C];
 macro_rules! for_channels {
     ($plan:expr, $C:ident => $body:expr) => {
         if $plan.channels().len() <= $crate::tokens::FEW
+            && !$plan.polygon.is_there()
             && !$plan.blend.is_there()
             && !$plan.dither.is_there()
             && !$plan.shade.is_there()
@@ -116,7 +117,7 @@ impl EdgeWalk {
 }
 
 tokens! {
-    /// SETUP to EDGE: a triangle as increments.
+    /// SETUP to EDGE or POLY: a triangle, or a part of a polygon, as increments.
     Prim blank with_slope_modulus {
         /// jm: first drawn line.
         line: u32 = 0 => [jm()];
@@ -128,6 +129,14 @@ tokens! {
         thin: bool = false => [thin()];
         /// Of a line: x and y have changed places.
         flat: bool = false => [flat()];
+        /// With POLY: bits for the major, the first and the second minor edge, those that count.
+        sides: u32 = 0 => [sides()];
+        /// With POLY: the last edges of a polygon, with its plane.
+        ends: bool = false => [ends()];
+        /// With POLY: the plane has no area, nothing is drawn.
+        void: bool = false => [void()];
+        /// With POLY: column and line of the pixel at which values start; the line is the first that is drawn.
+        start_pixel: [u32; 2] = [0; 2] => [start_x([0]), start_y([1])];
         /// Edge 0-2.
         major: EdgeWalk = EdgeWalk::default() => [major_c(.c), major_r(.r), major_q(.q), major_f(.f), major_m(.m)];
         /// Edges 0-1 and 1-2.
@@ -135,9 +144,9 @@ tokens! {
             minor1_c([0].c), minor1_r([0].r), minor1_q([0].q), minor1_f([0].f), minor1_m([0].m),
             minor2_c([1].c), minor2_r([1].r), minor2_q([1].q), minor2_f([1].f), minor2_m([1].m)
         ];
-        /// First values. Exact fill: `start`, and 0. Textbook fill: startA of part 1, startB of part 2.
+        /// First values. Exact fill: `start`, and 0; with POLY at `start_pixel`. Textbook fill: startA of part 1, startB of part 2.
         start: [Words<C>; 2] = [[0; C]; 2] => [] channels ["_start"([0]), "_start_a"([0]), "_start_b"([1])];
-        /// Increments a line. Exact fill: d0 without and d1 with the major edge's carry. Textbook fill: dA and dB.
+        /// Increments a line. Exact fill: d0 without and d1 with the major edge's carry; with POLY d0 straight down, and 0. Textbook fill: dA and dB.
         delta: [Words<C>; 2] = [[0; C]; 2] => [] channels ["_d0"([0]), "_d1"([1]), "_d_a"([0]), "_d_b"([1])];
         /// g: increment a pixel along the span.
         gradient: Words<C> = [0; C] => [] channels ["_g"()];
@@ -149,7 +158,7 @@ tokens! {
         source: Source = Source::default() => [tag(.tag)];
     }
 
-    /// EDGE to SPAN: a scan line between two edges.
+    /// EDGE or POLY to SPAN: a scan line between two edges.
     Line {
         /// Line on the screen.
         y: u32 = 0 => [y()];

@@ -3,7 +3,7 @@
 use crate::Token;
 use crate::interface::{Interface, Link};
 use crate::unit::Unit;
-use edgewalk_machine::{MAX_CHANNELS, Plan, PortVertex, Role};
+use edgewalk_machine::{MAX_CHANNELS, Plan, PortVertex, Role, Sides, Window};
 
 /// A triangle at the port.
 pub type Triangle = [PortVertex; 3];
@@ -29,6 +29,13 @@ enum Part {
     Thin,
     /// And has x and y exchanged.
     Flat,
+    /// With POLY: triangle, edges, edges and plane, or line.
+    Kind,
+    /// The sides that are edges.
+    Sides,
+    StartX,
+    StartY,
+    EndY,
     Tag,
 }
 
@@ -50,15 +57,20 @@ impl Triangles {
     /// The triangle as a token; of the tag the low bits.
     #[must_use]
     pub fn pack(&self, triangle: &Triangle, tag: u32) -> Token {
-        let role = Role::of(triangle);
+        let (role, window) = (Role::of(triangle), Window::of(triangle));
         let value = |(part, width): &(Part, u32)| {
             let number = match *part {
                 Part::X(vertex) => triangle[vertex].x().into(),
                 Part::Y(vertex) => triangle[vertex].y().into(),
                 Part::Value(vertex, channel) => triangle[vertex].values()[channel].into(),
                 Part::Kt => triangle[0].kt().into(),
-                Part::Thin => i128::from(role != Role::Triangle),
-                Part::Flat => i128::from(role == Role::Line { flat: true }),
+                Part::Thin => role.is_line().into(),
+                Part::Flat => role.is_flat().into(),
+                Part::Kind => role.kind().into(),
+                Part::Sides => role.sides().bits().into(),
+                Part::StartX => window.x0.into(),
+                Part::StartY => window.y0.into(),
+                Part::EndY => window.y1.into(),
                 Part::Tag => i128::from(tag),
             };
             number as u128 & (u128::MAX >> (128 - width))
@@ -80,7 +92,7 @@ impl Triangles {
     #[must_use]
     pub fn unpack(&self, token: &[u128]) -> (Triangle, u32) {
         let (mut x, mut y, mut values, mut tag) = ([0; 3], [0; 3], [[0; MAX_CHANNELS + 1]; 3], 0);
-        let [mut thin, mut flat] = [false; 2];
+        let (mut kind, mut flat, mut sides, mut window) = (0, false, Sides::default(), Window::default());
         let channels = self.plan.channels().len();
         for ((part, width), bits) in self.fields.iter().zip(token) {
             let signed = ((bits << (128 - width)) as i128 >> (128 - width)) as i64; // values have at most 48 bits
@@ -92,14 +104,24 @@ impl Triangles {
                     values[vertex][channel] = if signed_kind { signed } else { *bits as i64 };
                 }
                 Part::Kt => values[0][channels] = *bits as i64,
-                Part::Thin => thin = *bits == 1,
+                Part::Thin => kind = 3 * *bits,
                 Part::Flat => flat = *bits == 1,
+                Part::Kind => kind = *bits,
+                Part::Sides => sides = Sides::of_bits(*bits as u32),
+                Part::StartX => window.x0 = *bits as u32,
+                Part::StartY => window.y0 = *bits as u32,
+                Part::EndY => window.y1 = *bits as u32,
                 Part::Tag => tag = *bits as u32,
             }
         }
-        let role = if thin { Role::Line { flat } } else { Role::Triangle };
+        let role = match kind {
+            1 => Role::Edges(sides),
+            2 => Role::Plane(sides),
+            3 => Role::Line { flat },
+            _ => Role::Triangle,
+        };
         let vertices = std::array::from_fn(|i| self.plan.raw_vertex(x[i], y[i], &values[i]));
-        (self.plan.with_role(vertices, role), tag)
+        (self.plan.with_window(self.plan.with_role(vertices, role), window), tag)
     }
 }
 
@@ -109,6 +131,11 @@ impl Part {
             "kt" => return Some(Part::Kt),
             "thin" => return Some(Part::Thin),
             "flat" => return Some(Part::Flat),
+            "kind" => return Some(Part::Kind),
+            "sides" => return Some(Part::Sides),
+            "start_x" => return Some(Part::StartX),
+            "start_y" => return Some(Part::StartY),
+            "end_y" => return Some(Part::EndY),
             "tag" => return Some(Part::Tag),
             _ => {}
         }

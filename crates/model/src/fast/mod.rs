@@ -10,7 +10,7 @@
 //!
 //! DITHER rounds a colour by its pixel alone: so colours are kept as PIXEL gives them, and rounded when they are read.
 //!
-//! Not modelled: [`Events`], memories that stall, channels of the user's own, BLEND, dropped fragments, TERM and SHADE.
+//! Not modelled: [`Events`], memories that stall, channels of the user's own, POLY, BLEND, dropped fragments, TERM and SHADE.
 
 mod refusal;
 mod divide;
@@ -57,6 +57,7 @@ impl fmt::Display for Path {
         f.write_str(match self {
             Path::Fast => "without ticking",
             Path::Ticked(Reason::Channels) => "ticked: the machine has extra channels",
+            Path::Ticked(Reason::Polygons) => "ticked: the machine has POLY",
             Path::Ticked(Reason::Shadow) => "ticked: the machine has SHADOW",
             Path::Ticked(Reason::Blend) => "ticked: the machine has BLEND",
             Path::Ticked(Reason::ScreenDoor) => "ticked: the machine drops fragments by a pattern",

@@ -8,6 +8,8 @@ use edgewalk_machine::{ForeignVertex, Plan};
 pub enum Reason {
     /// The machine has channels of the user's own.
     Channels,
+    /// The machine has POLY.
+    Polygons,
     /// The machine has SHADOW.
     Shadow,
     /// The machine blends.
@@ -49,6 +51,9 @@ impl From<ForeignVertex> for Refusal {
 
 /// Why no frame of the machine can be had without ticking.
 pub(super) fn refused(plan: &Plan) -> Option<Reason> {
+    if plan.polygon.is_there() {
+        return Some(Reason::Polygons);
+    }
     if plan.blend.is_there() {
         return Some(Reason::Blend);
     }

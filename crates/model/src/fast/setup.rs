@@ -159,6 +159,10 @@ impl Setup {
             thin: false, // a line is left to the plain setup
             flat: false,
             major_right,
+            sides: 0, // no POLY here
+            ends: false,
+            void: false,
+            start_pixel: [0; 2],
             major,
             minor,
             start: [
@@ -201,7 +205,7 @@ impl Setup {
         };
         let [top, middle, bottom] = order;
         let corners = [corner(&vertices[top]), corner(&vertices[middle]), corner(&vertices[bottom])];
-        Sorted { corners, role: Role::of(vertices) }
+        Sorted::of(corners, Role::of(vertices))
     }
 
     /// k0 and k1: the first column that may have a pixel, and the first behind the last.

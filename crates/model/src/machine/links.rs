@@ -43,7 +43,7 @@ impl<const C: usize> Model<C> {
             }
         }
         if let Some(term) = self.term() {
-            asks[0] = Ask { addr: term.read(self.edge.record()), take: term.tdata_ready() };
+            asks[0] = Ask { addr: term.read(self.walker.record()), take: term.tdata_ready() };
         }
         wires.pixel_ready = self.pixel.span_ready(wires.ready[0]);
         wires
@@ -94,7 +94,7 @@ impl<const C: usize> Model<C> {
             if self.pixel.on_screen() { Activity::Draw } else { Activity::Offscreen }
         } else if !wires.there && self.span.span().is_some() {
             Activity::Term
-        } else if self.span.span().is_some() || self.span.line_held() || self.edge.running() {
+        } else if self.span.span().is_some() || self.span.line_held() || self.walker.running() {
             Activity::Edge
         } else if !self.setup.tri_ready() {
             Activity::Setup

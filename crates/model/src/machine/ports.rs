@@ -2,7 +2,8 @@
 
 use super::Model;
 use crate::io::Inputs;
-use crate::ports::{Held, Pins, Ported, Shown};
+use crate::ports::{Pins, Ported, Shown};
+use crate::walker::Walker;
 use crate::word_memory::WordIn;
 
 /// Where the units of a machine show their outputs.
@@ -23,11 +24,16 @@ impl<const C: usize> Model<C> {
         let wires = self.wires(inputs, &mut offers);
         let made = &offers.made;
         let state = inputs.state();
-        let held = Held { gradient: *self.edge.gradient(), kt: self.edge.kt(), record: self.edge.record() };
+        let held = self.walker.held();
         let fresh_queued = self.span.fresh_queued();
-        let prim_ready = self.edge.prim_ready(fresh_queued);
+        let prim = self.setup.prim();
+        let prim_ready = self.walker.prim_ready(prim, fresh_queued);
         self.setup.show(&Pins { next: prim_ready, state, ..Pins::default() }, &mut out.unit("setup"));
-        self.edge.show(&Pins { fresh_queued, state, ..Pins::default() }, &mut out.unit("edge"));
+        let pins = Pins { token: prim, fresh_queued, state, ..Pins::default() };
+        match &self.walker {
+            Walker::Edge(edge) => edge.show(&pins, &mut out.unit("edge")),
+            Walker::Poly(poly) => poly.show(&pins, &mut out.unit("poly")),
+        }
         self.span.show(&Pins { next: wires.span_ready(), state, ..Pins::default() }, &mut out.unit("span"));
         if let Some(term) = self.term() {
             let (token, next, word) = (self.span.span(), wires.pixel_ready, *self.records(inputs));

@@ -3,20 +3,25 @@
 use super::Model;
 use crate::io::Inputs;
 use crate::view::View;
+use crate::walker::Walker;
 use edgewalk_machine::Plan;
 
 impl<const C: usize> Model<C> {
     /// Shows the machine in a cycle with these inputs, before the clock edge.
     pub fn view(&self, plan: &Plan, inputs: &Inputs, view: &mut View) {
         view.begin(inputs.shadow.light_pass);
-        let Model { setup, edge, span, pixel, depth, .. } = self;
+        let Model { setup, walker, span, pixel, depth, .. } = self;
         let mut offers = self.no_offers();
         let wires = self.wires(inputs, &mut offers);
         let made = &offers.made;
         let fresh_queued = span.fresh_queued();
-        let line = edge.line();
-        setup.view(inputs.tri, edge.prim_ready(fresh_queued), view);
-        edge.view(plan, setup.prim(), fresh_queued, line.is_some() && span.line_ready(), view);
+        let (prim, line) = (setup.prim(), walker.line());
+        let line_taken = line.is_some() && span.line_ready();
+        setup.view(inputs.tri, walker.prim_ready(prim, fresh_queued), view);
+        match walker {
+            Walker::Edge(edge) => edge.view(plan, prim, fresh_queued, line_taken, view),
+            Walker::Poly(poly) => poly.view(plan, prim, fresh_queued, line_taken, view),
+        }
         span.view(plan, line, wires.span_ready(), view);
         if let Some(term) = self.term() {
             term.view(plan, span.span(), self.records(inputs), wires.pixel_ready, view);

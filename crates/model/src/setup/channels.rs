@@ -13,6 +13,12 @@ pub(super) fn prepare<const C: usize>(plan: &Plan, sorted: &Sorted<C>, parts: &P
     for (i, channel) in plan.channels().iter().enumerate() {
         let plane = Plane::new(plan, sorted, i, channel);
         prim.gradient[i] = word(i, plane.gradient());
+        if plan.polygon.is_there() {
+            let [x, y] = prim.start_pixel;
+            prim.delta[0][i] = word(i, plane.step(0));
+            prim.start[0][i] = word(i, plane.at(x.into(), y.into()));
+            continue;
+        }
         match plan.fill {
             Fill::Exact => {
                 if prim.major_right {

@@ -2,6 +2,8 @@
 //!
 //! Rules: `docs/machine.md`, section 2, "Pairs". All that is the same for every triangle is added up once, in [`Timing`].
 
+mod polygon;
+
 use super::edges::{Parts, Screen};
 use super::sequenced::ProgramClocks;
 use super::sort::{Corner, Sorted};
@@ -69,6 +71,7 @@ struct Part {
 pub(crate) struct Timing {
     lanes: usize,
     textbook: bool,
+    polygon: bool,
     /// log2 P.
     t: u32,
     /// Bits of a difference of coordinates: DW.
@@ -115,6 +118,7 @@ impl Timing {
         Timing {
             lanes,
             textbook,
+            polygon: plan.polygon.is_there(),
             t,
             difference: w.difference,
             edges: (t + fraction).div_ceil(2) + 2 + 2 + rounding,
@@ -236,6 +240,7 @@ impl Timing {
         if let Some(program) = &self.program {
             return SetupClocks { phase1: program.longest(), phase2: 0 };
         }
+        let (waits, behind) = if self.polygon { (polygon::WAITS, BEHIND) } else { (0, 0) };
         let edge_rounds = 3usize.div_ceil(self.lanes) as u32;
         let unsigned = self.difference - 1;
         let scale = |round: &Round| round.bits / 2 + 1;
@@ -245,11 +250,11 @@ impl Timing {
         let round = |round: &Round| {
             let (scaled, taken) = if self.textbook { (1, 2 * round.long) } else { (2, 0) };
             let gx = round.gx + unsigned + scale(round);
-            (round.clocks + sums + scaled * scale(round) + taken).max(gx + NEXT_SCALE + most)
+            (round.clocks + sums + scaled * scale(round) + taken + waits).max(gx + NEXT_SCALE + most)
         };
         let edges = edge_rounds * (self.edges + self.long + unsigned);
         SetupClocks {
-            phase1: (SUBTRACT + edges).max(unsigned + AREA + most),
+            phase1: (SUBTRACT + edges).max(unsigned + AREA + most) + behind,
             phase2: BEHIND + self.rounds.iter().map(round).sum::<u32>(),
         }
     }

@@ -62,6 +62,11 @@ pub(super) fn parts<const C: usize>(plan: &Plan, screen: Screen, sorted: &Sorted
     let t = plan.widths().center_fraction;
     let height = screen.of_role(sorted.role).height;
     let v = sorted.corners.map(|c| c.v);
+    if plan.polygon.is_there() {
+        let [first, end] = rows(sorted, height);
+        let [j0, j1, j2] = v.map(|v| (-(-v >> t)).min(end).max(first)); // rounded up
+        return Parts { first: [j0, j1], lines: [(j1 - j0) as u32, (j2 - j1) as u32] };
+    }
     match plan.fill {
         Fill::Exact => {
             let [top, knee, bottom] = v.map(|v| -(-v >> t)); // rounded up
@@ -80,6 +85,20 @@ pub(super) fn parts<const C: usize>(plan: &Plan, screen: Screen, sorted: &Sorted
             Parts { first: [upper.0, lower.0], lines: [upper.1, lower.1] }
         }
     }
+}
+
+/// With POLY: the first line of the window, and that behind its last on the screen.
+fn rows<const C: usize>(sorted: &Sorted<C>, height: i64) -> [i64; 2] {
+    [i64::from(sorted.window.y0), i64::from(sorted.window.y1).min(height)]
+}
+
+/// With POLY: the window cuts the corners' lines at its first line, below the screen's; at its end, above that of the screen.
+pub(super) fn cut_by_window<const C: usize>(plan: &Plan, screen: Screen, sorted: &Sorted<C>) -> [bool; 2] {
+    let t = plan.widths().center_fraction;
+    let height = screen.of_role(sorted.role).height;
+    let [first, end] = rows(sorted, height);
+    let [top, bottom] = [&sorted.corners[0], &sorted.corners[2]].map(|corner| -(-corner.v >> t));
+    [top < first && first > 0, bottom > end && end < height]
 }
 
 /// No column of pixel centres lies between the smallest and the largest u on the screen; only asked of triangles in exact fill.

@@ -17,6 +17,7 @@ mod round;
 pub(crate) mod sort;
 pub(crate) mod edges;
 mod channels;
+mod polygon;
 pub(crate) mod clocks;
 mod sequenced;
 mod schedule;
@@ -158,7 +159,8 @@ impl<const C: usize> Setup<C> {
                 }
             }
             State::Phase1 if self.culled => self.state = State::Idle,
-            State::Phase1 if self.clocks.phase2 == 0 => self.state = State::Done, // sequenced: WORK is over
+            // Of a sequenced SETUP WORK is over; of edges without a plane there are no channels.
+            State::Phase1 if self.clocks.phase2 == 0 => self.state = State::Done,
             State::Phase1 => self.enter(State::Phase2, self.clocks.phase2),
             State::Phase2 => self.state = State::Done,
             State::Done => self.state = State::Idle,
@@ -183,9 +185,11 @@ impl<const C: usize> Setup<C> {
 
     fn take(&mut self, vertices: &[PortVertex; 3], tag: u32, events: &mut Events) {
         let id = self.taken;
-        self.taken = self.taken.wrapping_add(1);
-        self.record = self.record.wrapping_add(1);
         let sorted = Sorted::new(&self.plan, vertices);
+        if sorted.role.ends() {
+            self.taken = self.taken.wrapping_add(1);
+            self.record = self.record.wrapping_add(1);
+        }
         let (clocks, culled) = prepare(&self.plan, &self.timing, self.screen, &sorted, &mut self.prim);
         self.enter(State::Phase1, clocks.phase1);
         self.clocks = clocks;
@@ -196,6 +200,9 @@ impl<const C: usize> Setup<C> {
                 self.prim.record = self.record & self.record_mask;
                 self.prim.source = Source { tag, id };
                 self.count(&sorted, events);
+                if self.plan.polygon.is_there() {
+                    polygon::count(&self.plan, self.screen, &sorted, events);
+                }
             }
             Some(Culled::Lines) => events.setup.culled_lines += 1,
             Some(Culled::Columns) => events.setup.culled_columns += 1,
@@ -241,6 +248,11 @@ pub fn setup_clocks(plan: &Plan, vertices: &[PortVertex; 3]) -> SetupClocks {
 /// Why a triangle of the picture at the port draws nothing, if SETUP culls it.
 #[must_use]
 pub fn cull(plan: &Plan, vertices: &[PortVertex; 3]) -> Option<Culled> {
+    if plan.polygon.is_there() {
+        let sorted = Sorted::<{ edgewalk_machine::MAX_CHANNELS }>::new(plan, vertices);
+        let (timing, screen) = (Timing::new(plan), Screen::picture(plan));
+        return polygon::prepare(plan, &timing, screen, &sorted, &mut Prim::default()).1;
+    }
     let (screen, sorted) = (Screen::picture(plan), Sorted::<FEW>::new(plan, vertices));
     if edges::parts(plan, screen, &sorted).lines == [0, 0] {
         Some(Culled::Lines)
@@ -260,6 +272,9 @@ pub(crate) fn prepare<const C: usize>(
     sorted: &Sorted<C>,
     prim: &mut Prim<C>,
 ) -> (SetupClocks, Option<Culled>) {
+    if plan.polygon.is_there() {
+        return polygon::prepare(plan, timing, screen, sorted, prim);
+    }
     let parts = edges::parts(plan, screen, sorted);
     let (clocks, culled) = found(plan, timing, screen, sorted, &parts, prim);
     let Some(clocks) = timing.of_program(screen, sorted, &parts, prim) else { return (clocks, culled) };
@@ -296,8 +311,8 @@ fn found<const C: usize>(
     *prim = Prim {
         line: parts.drawn() as u32, // first drawn line, 0 <= jm < H
         lines: parts.lines,
-        thin: sorted.role != Role::Triangle,
-        flat: sorted.role == Role::Line { flat: true },
+        thin: sorted.role.is_line(),
+        flat: sorted.role.is_flat(),
         major_right: area < 0,
         major: edges::walk(plan, a, c, parts.drawn(), n1 + n2),
         minor: [edges::walk(plan, a, b, j0, n1), edges::walk(plan, b, c, j1, n2)],

@@ -6,7 +6,7 @@
 use super::edges::Parts;
 use super::sort::Sorted;
 use crate::tokens::Prim;
-use edgewalk_machine::{EdgeKind, Fill, Plan};
+use edgewalk_machine::{EdgeKind, Fill, Plan, Role};
 
 /// What the lanes do in a clock.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -93,7 +93,7 @@ impl Job {
         "sums up gx = dv2 p1 + dv1 p2, a bit of both factors a clock, and doubles it: the step to the right",
         "rounds gx, while M still is the area",
         "sums up d0, the step along the major edge without a carry, the same way: the factors are columns, less q a line",
-        "adds gx: d1, the step with a carry",
+        "adds gx: d1, the step with a carry; with POLY only start needs it",
         "waits until the steps stand",
         "sums up start: from the top vertex the lines down by d0, and what is left of the way to the first pixel by gx; given out with the top vertex' value and the half that rounds",
         "takes in the difference of the left edge's values; M is now P times the height of that edge",
@@ -141,7 +141,7 @@ pub(super) fn schedule<const C: usize>(
         return Schedule([vec![(Job::Look, 2)], Vec::new()]);
     }
     let work = Work { plan, sorted, parts, prim, t: plan.widths().center_fraction };
-    Schedule([work.edges(), if sorted.area() == 0 { Vec::new() } else { work.channels() }])
+    Schedule([work.edges(), if work.has_channels() { work.channels() } else { Vec::new() }])
 }
 
 struct Work<'a, const C: usize> {
@@ -159,7 +159,12 @@ impl<const C: usize> Work<'_, C> {
         let [a, b, c] = &self.sorted.corners;
         let [n1, n2] = self.parts.lines;
         let [j0, j1] = self.parts.first;
-        let edges = [(a, c, self.parts.drawn(), true), (a, b, j0, n1 > 0), (b, c, j1, n2 > 0)];
+        let [major, upper, lower] = self.sorted.counts;
+        let edges = [
+            (a, c, self.parts.drawn(), major && n1 + n2 > 0, major),
+            (a, b, j0, upper && n1 > 0, upper),
+            (b, c, j1, lower && n2 > 0, lower),
+        ];
         let o = i64::from(plan.fill == Fill::Textbook);
         let (f, slope) = match plan.edge_kind {
             EdgeKind::Exact => (0, false),
@@ -167,10 +172,13 @@ impl<const C: usize> Work<'_, C> {
         };
         let mut jobs = vec![(Job::Subtract, 1)];
         for round in edges.chunks(plan.lanes as usize) {
-            let walked = || round.iter().filter(|(.., walked)| *walked);
+            if round.iter().all(|(.., counts)| !counts) {
+                continue; // only with POLY: elsewhere each edge counts
+            }
+            let walked = || round.iter().filter(|(.., walked, _)| *walked);
             let fits = walked().all(|(from, to, ..)| is_within(to.u - from.u, (to.v - from.v) << self.t));
             let factors = walked()
-                .flat_map(|(from, _, j, _)| [(from.u + o).rem_euclid(1 << self.t), (j << self.t) - from.v]);
+                .flat_map(|(from, _, j, ..)| [(from.u + o).rem_euclid(1 << self.t), (j << self.t) - from.v]);
             let take = if fits { 1 } else { 3 + (plan.widths().difference - 1).div_ceil(2) };
             jobs.extend([(Job::TakeDx, take), (Job::Slope, (self.t + f).div_ceil(2))]);
             jobs.extend([(Job::TakeDy, 2), (Job::WaitDy, 2), (Job::SumE, bits(factors))]);
@@ -181,7 +189,20 @@ impl<const C: usize> Work<'_, C> {
         let so_far: u32 = jobs.iter().map(|(_, clocks)| clocks).sum();
         let area = bits([c.v - a.v]).max(2) + 4 + self.scale(0);
         jobs.extend((area > so_far).then(|| (Job::Area, area - so_far)));
+        if plan.polygon.is_there() && !self.has_channels() && !self.is_culled() {
+            jobs.push((Job::Behind, 4));
+        }
         jobs
+    }
+
+    /// The token has an area, and a plane of its own.
+    fn has_channels(&self) -> bool {
+        self.sorted.area() != 0 && self.sorted.role.ends()
+    }
+
+    /// A triangle or line without area.
+    fn is_culled(&self) -> bool {
+        self.sorted.role.ends() && !matches!(self.sorted.role, Role::Plane(_))
     }
 
     fn channels(&self) -> Vec<(Job, u32)> {
@@ -206,6 +227,16 @@ impl<const C: usize> Work<'_, C> {
             jobs.push((Job::Gx, bits([dv2, dv1]) + scale + dbl(1)));
             let behind_gx = jobs.len();
             match plan.fill {
+                _ if plan.polygon.is_there() => {
+                    let window = self.sorted.window;
+                    let [x, y] = [window.x0, window.y0].map(|place| i64::from(place) << self.t);
+                    jobs.extend([
+                        (Job::D0, signed_bits([a.u - c.u, a.u - b.u]) + scale + dbl(1)),
+                        (Job::D1, 1),
+                        (Job::WaitSteps, 2),
+                        (Job::Start, signed_bits([x - a.u, y - a.v])),
+                    ]);
+                }
                 Fill::Exact => {
                     let sheared = |x: i64, y: i64| x - i64::from(self.prim.major.q) * y;
                     let down = [-sheared(c.u - a.u, dv2), -sheared(b.u - a.u, dv1)];

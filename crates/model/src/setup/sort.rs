@@ -1,6 +1,6 @@
 //! Vertices in centre coordinates, sorted from top to bottom.
 
-use edgewalk_machine::{Channel, Fill, Plan, PortVertex, Role};
+use edgewalk_machine::{Channel, Fill, Plan, PortVertex, Role, Window};
 
 /// A vertex in centre coordinates.
 #[derive(Clone, Copy, Debug)]
@@ -18,19 +18,50 @@ pub(crate) struct Corner<const C: usize> {
 pub(crate) struct Sorted<const C: usize> {
     pub corners: [Corner<C>; 3],
     pub role: Role,
+    /// With POLY: the lines that are drawn, and the pixel at which values start.
+    pub window: Window,
+    /// With POLY: the edges 0-2, 0-1 and 1-2 that count.
+    pub counts: [bool; 3],
 }
 
 impl<const C: usize> Default for Sorted<C> {
     fn default() -> Self {
-        Sorted { corners: [Corner { u: 0, v: 0, values: [0; C] }; 3], role: Role::Triangle }
+        Sorted::of([Corner { u: 0, v: 0, values: [0; C] }; 3], Role::Triangle)
     }
 }
 
 impl<const C: usize> Sorted<C> {
     pub(crate) fn new(plan: &Plan, vertices: &[PortVertex; 3]) -> Self {
-        let mut corners = vertices.map(|v| corner(plan, &v));
+        let unsorted = vertices.map(|v| corner(plan, &v));
+        let mut corners = unsorted;
         corners.sort_by_key(|c| c.v); // stable
-        Sorted { corners, role: Role::of(vertices) }
+        let sorted = Sorted::of(corners, Role::of(vertices));
+        if !plan.polygon.is_there() {
+            return sorted;
+        }
+        let mut order = [0, 1, 2];
+        order.sort_by_key(|place| unsorted[*place].v); // stable
+        Sorted { window: Window::of(vertices), counts: sorted.sides(order), ..sorted }
+    }
+
+    /// Sorted corners in a machine without POLY.
+    #[inline(always)]
+    pub(crate) fn of(corners: [Corner<C>; 3], role: Role) -> Self {
+        Sorted { corners, role, window: Window::default(), counts: [true; 3] }
+    }
+
+    /// Whether the edges between sorted corners count; `order`: which vertex of the port stands at each place.
+    fn sides(&self, order: [usize; 3]) -> [bool; 3] {
+        [[0, 2], [0, 1], [1, 2]].map(|ends| match self.role {
+            Role::Triangle => true,
+            Role::Line { .. } => ends == [0, 2],
+            // Sides are named by the vertex that they start at: 0-1, 1-2, 2-0.
+            Role::Edges(sides) | Role::Plane(sides) => match ends.map(|place| order[place]) {
+                [0, 1] | [1, 0] => sides.has(0),
+                [1, 2] | [2, 1] => sides.has(1),
+                _ => sides.has(2),
+            },
+        })
     }
 
     /// Twice the area with its sign, 2^-2t px²; negative: the major edge 0-2 lies right.

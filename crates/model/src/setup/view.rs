@@ -6,7 +6,7 @@ use super::{Setup, State};
 use crate::tokens::EdgeWalk;
 use crate::view::{Shape, View, increment, modulo, word};
 use edgewalk_machine::units::tokens::{EDGES, results};
-use edgewalk_machine::{Fill, PortVertex};
+use edgewalk_machine::{Fill, PortVertex, Role};
 
 const STATES: [&str; 4] = ["IDLE", "PHASE1", "PHASE2", "DONE"];
 const SEQUENCED_STATES: [&str; 4] = ["IDLE", "WORK", "-", "DONE"];
@@ -48,10 +48,15 @@ impl<const C: usize> Setup<C> {
         view.says(done && prim_ready, "hands the triangle over: {n1} + {n2} lines from line {jm} on.");
         view.says(
             done && !prim_ready,
-            "waits with the triangle: EDGE walks, or PIXEL has not taken the increments of the one before.",
+            if self.plan.polygon.is_there() {
+                "waits with the prim: POLY loads its edges, or walks, or PIXEL has not taken the increments of the polygon before."
+            } else {
+                "waits with the triangle: EDGE walks, or PIXEL has not taken the increments of the one before."
+            },
         );
         view.takes(if self.plan.is_sequenced() { "in" } else { "tri" }, tri.is_some(), idle);
-        view.gives("prim", Some("edge"), done, prim_ready);
+        let walker = if self.plan.polygon.is_there() { "poly" } else { "edge" };
+        view.gives("prim", Some(walker), done, prim_ready);
         view.step("triangle", 't');
     }
 
@@ -86,7 +91,9 @@ impl<const C: usize> Setup<C> {
             return Schedule([vec![(Job::Program, self.clocks.phase1)], Vec::new()]);
         }
         let parts = parts(&self.plan, self.screen, &self.sorted);
-        let at_once = parts.lines == [0, 0] || no_columns(&self.plan, self.screen, &self.sorted);
+        let plane = matches!(self.sorted.role, Role::Plane(_));
+        let at_once =
+            !plane && parts.lines == [0, 0] || no_columns(&self.plan, self.screen, &self.sorted);
         schedule(&self.plan, &self.sorted, &parts, at_once, &self.prim)
     }
 
@@ -132,6 +139,14 @@ impl<const C: usize> Setup<C> {
             view.flag("flat", "of a line: x and y have changed places", prim.flat);
         }
         view.flag("major_right", "the major edge is the right one", prim.major_right);
+        if plan.polygon.is_there() {
+            view.number("sides", "major, first and second minor edge that count, a bit each", 3, prim.sides);
+            view.flag("ends", "the last edges of a polygon, with its plane", prim.ends);
+            view.flag("void", "the plane has no area", prim.void);
+            let [x, y] = plan.window_bits();
+            view.number("start_x", "column at which values start", x, prim.start_pixel[0]);
+            view.number("start_y", "line at which values start, the first that is drawn", y, prim.start_pixel[1]);
+        }
         view.table("edges", &EdgeWalk::COLUMNS, false);
         for (name, edge) in EDGES.into_iter().zip([&prim.major, &prim.minor[0], &prim.minor[1]]) {
             view.row(name);
