@@ -50,17 +50,11 @@ pub fn poly(plan: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
     let walking = m.wire("walking", 1).doc("a polygon is walked, or its last span waits");
     let writes = m.wire("pass_writes", 1).doc("PASS writes a record");
     let tables = Tables::new(&m, plan, &prim);
-    let links = load::Links {
-        prim_valid,
-        prim: &prim,
-        fresh_queued,
-        walking: walking.q(),
-        pass_writes: writes.q(),
-    };
+    let links =
+        load::Links { prim_valid, prim: &prim, fresh_queued, walking: walking.q(), pass_writes: writes.q() };
     let load = Load::new(&m, &tables, &links);
     let pair_leaves = m.wire("pair_leaves", 1).doc("MOVER takes the pair that waits, or drops it");
-    let links =
-        pass::Links { load: &load, prim: &prim, walking: walking.q(), pair_leaves: pair_leaves.q() };
+    let links = pass::Links { load: &load, prim: &prim, walking: walking.q(), pair_leaves: pair_leaves.q() };
     let pass = Pass::new(&m, &tables, &links);
     writes.drive(pass.writes);
     let links =

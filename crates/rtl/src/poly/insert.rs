@@ -84,7 +84,9 @@ impl<'a, 'm> Inserts<'a, 'm> {
     /// The updates, and the list's ports.
     pub fn update(&self, comes: &Comes<'m>) {
         let Inserts { m, tables, count, head, top, edge, valid, moving, moves } = *self;
-        m.comment("The words before which the edge goes move up, the last of them first; then it takes the gap.");
+        m.comment(
+            "The words before which the edge goes move up, the last of them first; then it takes the gap.",
+        );
         let gap = m.reg("gap", tables.index).doc("the place that is free");
         let end = count.q().trunc(tables.index);
         let before_gap = (moving.q().mux(gap.q() - 1, end - 1) - 1).named("before_gap");

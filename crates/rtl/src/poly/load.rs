@@ -65,7 +65,8 @@ impl<'m> Load<'m> {
         let [major, minor1, minor2] = [0, 1, 2].map(is_left);
         let any_left = (major | minor1 | minor2).named("any_left");
         let turn = m.cat(&[minor2 & !major & !minor1, minor1 & !major, major]).named("turn");
-        let takes = (prim_valid & !putting.q() & any_left & !pass_writes).named_doc("takes", "a side is loaded");
+        let takes =
+            (prim_valid & !putting.q() & any_left & !pass_writes).named_doc("takes", "a side is loaded");
         let chosen = |of: &dyn Fn(Side<'m>) -> Signal<'m>| {
             major.mux(of(sides[0]), minor1.mux(of(sides[1]), of(sides[2])))
         };
@@ -139,7 +140,8 @@ impl<'m> Order<'_, 'm> {
         let before = position.q().any();
         let own = Word { key: first, index: edges.trunc(tables.index) };
 
-        let later = (first.ge(last.q()) | !edges.any()).named_doc("later", "no edge of the list begins later");
+        let later =
+            (first.ge(last.q()) | !edges.any()).named_doc("later", "no edge of the list begins later");
         let appends = (stores & later).named("appends");
         let inserts = (stores & !later).named("inserts");
         // The edge's own number is that of the edges before it, until it is put.

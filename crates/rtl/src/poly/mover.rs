@@ -95,8 +95,14 @@ impl<'m> Mover<'m> {
             let of_prim = |result: &str| prim[format!("{channel}_{result}").as_str()];
             let increment = increments[channel].when(begins, of_prim("g")).q();
             let down = of_prim("d0");
-            let down = m.reg(&format!("{channel}_d0"), down.width()).doc("step to the next line").when(!walking, down).q();
-            let along = m.reg(&format!("{channel}_along"), down.width()).doc("increment, doubled as often as it was asked for");
+            let down = m
+                .reg(&format!("{channel}_d0"), down.width())
+                .doc("step to the next line")
+                .when(!walking, down)
+                .q();
+            let along = m
+                .reg(&format!("{channel}_along"), down.width())
+                .doc("increment, doubled as often as it was asked for");
             along.when(way.doubles, along.q().shl(1)).when(takes, increment);
             let along = along.q() ^ way.left.sext(down.width());
             let added = way.down.mux(down, along).named(&format!("{channel}_added"));
@@ -128,7 +134,8 @@ impl<'m> Columns<'m> {
         let beyond_right = beyond(right).named_doc("right_cut", "the pair ends beside the screen");
         let before_left = left.msb().named_doc("left_cut", "the pair begins beside the screen");
         let right_of_first = !right.msb() & right.any();
-        let some = (left.slt(right) & !beyond(left) & right_of_first).named_doc("some_columns", "of the screen");
+        let some =
+            (left.slt(right) & !beyond(left) & right_of_first).named_doc("some_columns", "of the screen");
         let whole = |cut: Signal<'m>| thin.map_or(cut, |thin| cut & !thin);
         Columns {
             first: whole(before_left).mux(0, left).named("first"),
@@ -140,7 +147,13 @@ impl<'m> Columns<'m> {
 
 impl<'m> Way<'m> {
     /// From the span before, or from where the values start, to the pair that is taken.
-    fn new(m: &'m Module, plan: &Plan, links: &Links<'_, 'm>, first: Signal<'m>, takes: Signal<'m>) -> Way<'m> {
+    fn new(
+        m: &'m Module,
+        plan: &Plan,
+        links: &Links<'_, 'm>,
+        first: Signal<'m>,
+        takes: Signal<'m>,
+    ) -> Way<'m> {
         let Links { prim, walking, pair, .. } = *links;
         m.comment("The way to the span: lines down, then columns to the right or to the left.");
         let bits = column_bits(plan);
@@ -148,7 +161,8 @@ impl<'m> Way<'m> {
         let column = m.reg("at_column", bits).doc("its first column");
         let first = first.trunc(bits);
         let below = pair.line - line.q();
-        let beside = (first.zext(bits + 1) - column.q().zext(bits + 1)).named_doc("beside", "signed, columns");
+        let beside =
+            (first.zext(bits + 1) - column.q().zext(bits + 1)).named_doc("beside", "signed, columns");
         let left = beside.msb();
         let far = (beside.trunc(bits) ^ left.sext(bits)) + left.zext(bits);
         let far = pair.thin.map_or(far, |thin| thin.mux(0, far)).named("columns_away");

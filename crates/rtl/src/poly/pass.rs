@@ -56,7 +56,9 @@ impl<'m> Pass<'m> {
     /// The registers of PASS, and its ports of the memories.
     pub fn new(m: &'m Module, tables: &Tables<'m>, links: &Links<'_, 'm>) -> Pass<'m> {
         let Links { load, prim, walking, pair_leaves } = *links;
-        m.comment("PASS: the active list of line y through the stages B, a word, and C, the word with its record.");
+        m.comment(
+            "PASS: the active list of line y through the stages B, a word, and C, the word with its record.",
+        );
         let line = Line::new(m, tables);
         let Line { run, y, half, b_valid, c_valid, entering, .. } = line;
         let held = |name: &str| prim.get(name).map(|value| m.reg(name, 1).when(!walking, value).q());

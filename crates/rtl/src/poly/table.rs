@@ -63,7 +63,8 @@ impl<'m> Tables<'m> {
                 .doc(&format!("of each edge {}, as in the prim", names.join(", "))),
             rests: memory("rests", rest + line + 1).doc("of each edge R - f, signed, and the lines left"),
             order: memory("order", line + index).doc("first line and number of each edge, by the line"),
-            lists: memory("lists", column + index).doc("column and number of each active edge, by the column"),
+            lists: memory("lists", column + index)
+                .doc("column and number of each active edge, by the column"),
             parts,
             index,
             column,
