@@ -83,7 +83,7 @@ impl<'m> Polygon<'m> {
         let first = triangle["start_y"].zext(bits);
         let end = triangle["end_y"].lt(height).mux(triangle["end_y"], height).named("window_end");
         let end = end.lt(first).mux(first, end);
-        let end = m.reg("end_line", bits).doc("behind the last line of the window").when(take, end).q();
+        let end = m.reg("behind_window", bits).doc("behind the last line of the window").when(take, end).q();
         let triangle = (!edges & !plane).named("is_triangle");
         Some(Polygon { plane, triangle, first: prim["start_y"].q(), end })
     }
