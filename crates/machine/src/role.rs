@@ -216,7 +216,8 @@ mod tests {
     #[test]
     fn a_window_is_kept_beside_the_role() {
         let plan = Machine::default().with(|m| m.polygon.edges = 8).plan().expect("can be built");
-        let (window, role) = (Window { x0: 639, y0: 479, y1: 480 }, Role::Plane(Sides::new([true, false, true])));
+        let (window, role) =
+            (Window { x0: 639, y0: 479, y1: 480 }, Role::Plane(Sides::new([true, false, true])));
         let vertices = [plan.raw_vertex(1, 2, &[3]); 3];
         assert_eq!(Window::of(&vertices), Window::default());
         for vertices in [

@@ -1,8 +1,8 @@
 //! The machine as netlists, a unit a file, written from `docs/machine.md`.
 //!
 //! ```text
-//!  tri ─> setup ─> edge ─> span ─> [term] ─> pixel ─> [texel] ─> [bump] ─> [normal or lamp] ─> [shade] ─> [project] ─> [shadow] ─> depth ─> memory
-//!                                                                                                                          └──> blend ─> memory
+//!  tri ─> setup ─> edge or poly ─> span ─> [term] ─> pixel ─> [texel] ─> [bump] ─> [normal or lamp] ─> [shade] ─> [project] ─> [shadow] ─> depth ─> memory
+//!                                                                                                                                  └──> blend ─> memory
 //! ```
 //! A function a unit takes a [`Plan`](edgewalk_machine::Plan), the checked machine, and builds the unit's netlist with the ports
 //! that [`edgewalk_machine::UNITS`] declares; [`BUILDERS`] lists the functions, [`machine`] joins what they build.
@@ -14,7 +14,9 @@ mod light_pass;
 
 mod setup;
 
+mod stepping;
 mod edge;
+mod poly;
 mod fifo;
 mod span;
 
@@ -66,6 +68,7 @@ pub use machine::{assemble, engine, machine};
 pub use memory::memory;
 pub use normal::normal;
 pub use pixel::pixel;
+pub use poly::poly;
 pub use project::project;
 pub use setup::setup;
 pub use shade::shade;
@@ -78,6 +81,7 @@ pub use texel::texel;
 pub const BUILDERS: &[(&str, units::Build)] = &[
     ("setup", setup),
     ("edge", edge),
+    ("poly", poly),
     ("span", span),
     ("term", term),
     ("pixel", pixel),

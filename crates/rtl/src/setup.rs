@@ -4,6 +4,8 @@ mod steps;
 mod control;
 mod sort;
 mod role;
+mod polygon;
+mod walked;
 mod top;
 mod lines;
 mod area;
@@ -65,7 +67,7 @@ pub fn setup(plan: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
 
     // The first line, the moduli and the side follow from other registers; all else of the prim is a
     // register.
-    let computed = |name: &str| name == "jm" || name.ends_with("_m") || name == "major_right";
+    let computed = |name: &str| matches!(name, "jm" | "major_right" | "void") || name.ends_with("_m");
     let mut kept = parts(&ports.gives_link().fields);
     kept.retain(|f| !computed(&f.name));
     let prim = Registers::new(&m, "prim", kept);
@@ -77,11 +79,15 @@ pub fn setup(plan: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
     let role = role::Role::take(&control, &triangle, &prim);
     if let Some(record) = prim.get("record") {
         // Culled triangles count: the first after a reset has record 0.
-        record.reset((1 << plan.shade.record_bits) - 1).when(control.sequence.take, record.q() + 1);
+        let ends = triangle.get("kind").map(|kind| kind.ne(polygon::Kind::Edges as i32));
+        let counts = ends.map_or(control.sequence.take, |ends| control.sequence.take & ends);
+        record.reset((1 << plan.shade.record_bits) - 1).when(counts, record.q() + 1);
     }
+    let polygon = polygon::Polygon::take(&m, plan, &control, light_pass, &triangle, &prim, &vertices.order);
+    let walked = walked::Walked::new(&prim);
     let area = Area::new(&m, plan, &control, &vertices);
     let scale = Scale::new(&m, plan, &control, &area);
-    let screen = lines::Screen { m: &m, plan, light_pass, role };
+    let screen = lines::Screen { m: &m, plan, light_pass, role, polygon };
     let lines = Lines::new(&screen, &control, &vertices, &prim, &area);
     let sources = factors::Sources {
         m: &m,
@@ -91,6 +97,7 @@ pub fn setup(plan: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
         lines: &lines,
         area: &area,
         prim: &prim,
+        walked: &walked,
     };
     let factors = sources.factors();
 
@@ -103,23 +110,26 @@ pub fn setup(plan: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
         vertices: &vertices,
         area: &area,
         scale: &scale,
-        prim: &prim,
+        walked: &walked,
         values: &values,
     };
     let differences: Vec<_> = lanes.iter().map(|lane| sources.connect(lane)).collect();
     scale.gather(plan, &control, &differences);
     let unfit = lanes.iter().filter_map(|lane| sources.unfit(lane));
     control.feedback.unfit.drive(unfit.reduce(|any, one| any | one).unwrap_or(m.lit(1, 0)));
-    Results { m: &m, plan, control: &control, vertices: &vertices, prim: &prim }.take(&lanes);
+    Results { m: &m, plan, control: &control, vertices: &vertices, prim: &prim, walked: &walked }
+        .take(&lanes);
 
     ports.take_ready(control.sequence.idle);
     let heights = EDGES.iter().zip(&vertices.heights);
     let moduli: Vec<_> = heights.map(|(edge, height)| (format!("{edge}_m"), *height)).collect();
+    let void = || polygon.map_or(m.lit(1, 0), |polygon| polygon.plane & control.feedback.no_area.q());
     let first_line = lines.jm.trunc(plan.widths().line);
     ports.give(control.sequence.done, |name| match moduli.iter().find(|(modulus, _)| modulus == name) {
         Some((_, height)) => *height,
         None if name == "jm" => first_line,
         None if name == "major_right" => area.negative,
+        None if name == "void" => void(),
         None => prim[name].q(),
     });
     m.finish()

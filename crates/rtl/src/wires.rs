@@ -118,6 +118,14 @@ pub(crate) fn moved<'m>(
     m.reg(name, value.width()).doc(doc).when(advance, value).q()
 }
 
+/// a + b + carry; the sum has a lowest bit more, out of which the carry comes.
+pub(crate) fn plus<'m>(name: &str, a: Signal<'m>, b: Signal<'m>, carry: Signal<'m>) -> Signal<'m> {
+    let m = a.module();
+    let sum =
+        (m.cat(&[a, m.lit(1, 1)]) + m.cat(&[b, carry])).named_doc(name, "and a carry out of the lowest bit");
+    sum.slice(a.width(), 1)
+}
+
 /// One register a part, `<prefix>_<part>`.
 #[derive(Clone, Debug)]
 pub(crate) struct Registers<'m>(Vec<(Part, Reg<'m>)>);

@@ -28,7 +28,10 @@ fn ports(plan: &Plan) -> Ports {
         levels: vec![Field::count("fresh_queued", 1, "the polygon before has not reached PIXEL yet")],
         status: vec![
             Status::new("walking", "a polygon is walked, or its last span waits"),
-            Status::new("refused", "a polygon ends here that has more edges than the table: nothing of it is drawn"),
+            Status::new(
+                "refused",
+                "a polygon ends here that has more edges than the table: nothing of it is drawn",
+            ),
         ],
         ..Ports::default()
     }

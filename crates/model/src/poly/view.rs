@@ -46,14 +46,24 @@ impl<const C: usize> Poly<C> {
         view.flag("over", "it has more edges than the table", self.load.over());
         let puts = view.flag("putting", "an edge goes to its place in the order list", putting.is_some());
         view.live(Some(puts));
-        view.number("pos", "the place that is free for it", edges, putting.map_or(0, |putting| putting.place));
+        view.number(
+            "pos",
+            "the place that is free for it",
+            edges,
+            putting.map_or(0, |putting| putting.place),
+        );
         view.number("okey", "its first line", w.line, putting.map_or(0, |putting| putting.key.line));
         view.live(None);
-        view.table("order of the edges that are loaded, the last of them", &["place", "first line", "edge"], true);
+        view.table(
+            "order of the edges that are loaded, the last of them",
+            &["place", "first line", "edge"],
+            true,
+        );
         let first = (loaded as usize).saturating_sub(ROWS);
         for row in 0..ROWS {
             let place = first + row;
-            let order = bank.order.get(place).copied().filter(|_| place < loaded as usize).unwrap_or_default();
+            let order =
+                bank.order.get(place).copied().filter(|_| place < loaded as usize).unwrap_or_default();
             view.row(&row.to_string());
             view.cell("place in the list", || Shape::whole(edges), place as u64);
             view.cell("first line of the edge", || Shape::whole(w.line), order.line.into());
@@ -74,9 +84,11 @@ impl<const C: usize> Poly<C> {
     fn view_pass(&self, plan: &Plan, view: &mut View) {
         let (b, c, d) = self.pass.stages();
         let places = plan.polygon.edges.ilog2() + 1;
-        let columns: Vec<&str> = ["edge"].into_iter().chain(EdgeWalk::COLUMNS).chain(["lines left"]).collect();
+        let columns: Vec<&str> =
+            ["edge"].into_iter().chain(EdgeWalk::COLUMNS).chain(["lines left"]).collect();
         let stage = |title: &str, name: &str, index: Option<u32>, record: Record, view: &mut View| {
-            let valid = view.flag(&format!("{name}_valid"), &format!("a word is in {title}"), index.is_some());
+            let valid =
+                view.flag(&format!("{name}_valid"), &format!("a word is in {title}"), index.is_some());
             view.live(Some(valid));
             view.table(title, &columns, false);
             view.row(name);
@@ -100,18 +112,28 @@ impl<const C: usize> Poly<C> {
                 let word = word.unwrap_or_default();
                 view.row(&row.to_string());
                 let column = plan.widths().column;
-                view.cell("column on the list's line", || Shape::signed(column), modulo(word.column.into(), column));
+                view.cell(
+                    "column on the list's line",
+                    || Shape::signed(column),
+                    modulo(word.column.into(), column),
+                );
                 view.cell("place in the table", || Shape::whole(places), word.index.into());
             }
         };
         let [old, new] = self.pass.words();
         list("active edges of line y, those that come next", b, old, view);
-        list("active edges of the next line, the last of them", None, &new[new.len().saturating_sub(ROWS)..], view);
+        list(
+            "active edges of the next line, the last of them",
+            None,
+            &new[new.len().saturating_sub(ROWS)..],
+            view,
+        );
         view.number("words", "of the next line so far", places, new.len() as u64);
         view.flag("half", "the left column of a pair is there", self.pass.left().is_some());
         let column = plan.widths().column;
         view.signed("left", "that column", column, self.pass.left().unwrap_or(0).into());
-        let moving = view.flag("inserting", "words make room for a smaller column", self.pass.gap().is_some());
+        let moving =
+            view.flag("inserting", "words make room for a smaller column", self.pass.gap().is_some());
         view.live(Some(moving));
         view.number("gap", "the free place of the next line's list", places, self.pass.gap().unwrap_or(0));
         view.signed("key", "the smaller column", column, d.map_or(0, |d| d.column).into());
@@ -150,7 +172,11 @@ impl<const C: usize> Poly<C> {
         view.table("held, LSB", &["g"], true);
         for (i, channel) in plan.channels().iter().enumerate() {
             view.row(channel.name);
-            view.cell("to the next pixel of the span, for PIXEL", || increment(channel), self.held.gradient[i]);
+            view.cell(
+                "to the next pixel of the span, for PIXEL",
+                || increment(channel),
+                self.held.gradient[i],
+            );
         }
     }
 
@@ -160,7 +186,10 @@ impl<const C: usize> Poly<C> {
         let through = prim.is_some_and(|prim| self.load.is_through(prim));
         let loads = prim.is_some() && !through && putting.is_none() && !self.pass.writes();
         view.says(loads, "LOAD takes an edge into the table.");
-        view.says(putting.is_some(), "LOAD puts an edge into the order list, before those that begin further down.");
+        view.says(
+            putting.is_some(),
+            "LOAD puts an edge into the order list, before those that begin further down.",
+        );
         let ends = fires.is_some_and(|prim| prim.ends);
         view.says(fires.is_some() && !ends, "LOAD has taken all edges of the prim: the next ones may come.");
         view.says(ends && self.load.over(), "refuses the polygon: it has more edges than the table.");
@@ -179,13 +208,19 @@ impl<const C: usize> Poly<C> {
         view.says(old && last, "edge {C.edge} leaves: this is its last line.");
         view.says(old && !last && carry, "edge {C.edge} steps with a carry: R {C.R} < f {C.f}.");
         view.says(old && !last && !carry, "edge {C.edge} steps without a carry: R {C.R} ≥ f {C.f}.");
-        view.says(self.pass.runs() && self.pass.blocked(), "waits with edge {C.edge}: a pair waits for MOVER.");
+        view.says(
+            self.pass.runs() && self.pass.blocked(),
+            "waits with edge {C.edge}: a pair waits for MOVER.",
+        );
         let moves = self.pass.gap().is_some() && d.is_some();
         view.says(moves, "column {key} goes before the words behind place {gap}.");
         let waits = self.pass.pair().is_some();
         view.says(waits, "pair {pair_left} to {pair_right} of line {pair_y} waits for MOVER.");
         let there = self.line().is_some();
-        view.says(self.mover.has_span() && !there, "MOVER goes to line {line}, column {first}: {md} in halves to go.");
+        view.says(
+            self.mover.has_span() && !there,
+            "MOVER goes to line {line}, column {first}: {md} in halves to go.",
+        );
         view.says(there && line_taken, "hands over line {line}: columns {first} up to before {behind}.");
         view.says(there && !line_taken, "waits with line {line}: the FIFO of SPAN is full.");
     }

@@ -49,10 +49,7 @@ pub(super) fn prepare<const C: usize>(
         thin: role.is_line(),
         flat: role.is_flat(),
         major: edges::walk(plan, a, c, parts.drawn(), lines(major, n1 + n2)),
-        minor: [
-            edges::walk(plan, a, b, j0, lines(upper, n1)),
-            edges::walk(plan, b, c, j1, lines(lower, n2)),
-        ],
+        minor: [edges::walk(plan, a, b, j0, lines(upper, n1)), edges::walk(plan, b, c, j1, lines(lower, n2))],
         ..Prim::default()
     };
     if area == 0 || !role.ends() {

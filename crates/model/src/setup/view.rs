@@ -92,8 +92,7 @@ impl<const C: usize> Setup<C> {
         }
         let parts = parts(&self.plan, self.screen, &self.sorted);
         let plane = matches!(self.sorted.role, Role::Plane(_));
-        let at_once =
-            !plane && parts.lines == [0, 0] || no_columns(&self.plan, self.screen, &self.sorted);
+        let at_once = !plane && parts.lines == [0, 0] || no_columns(&self.plan, self.screen, &self.sorted);
         schedule(&self.plan, &self.sorted, &parts, at_once, &self.prim)
     }
 
@@ -145,7 +144,12 @@ impl<const C: usize> Setup<C> {
             view.flag("void", "the plane has no area", prim.void);
             let [x, y] = plan.window_bits();
             view.number("start_x", "column at which values start", x, prim.start_pixel[0]);
-            view.number("start_y", "line at which values start, the first that is drawn", y, prim.start_pixel[1]);
+            view.number(
+                "start_y",
+                "line at which values start, the first that is drawn",
+                y,
+                prim.start_pixel[1],
+            );
         }
         view.table("edges", &EdgeWalk::COLUMNS, false);
         for (name, edge) in EDGES.into_iter().zip([&prim.major, &prim.minor[0], &prim.minor[1]]) {

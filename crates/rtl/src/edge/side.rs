@@ -3,7 +3,8 @@
 use edgewalk_netlist::{Module, Reg, Signal};
 
 use super::walk::Walk;
-use crate::wires::{Part, Registers, Token};
+use crate::stepping::{Rest, first_rest, parts_of_edge};
+use crate::wires::{Registers, Token};
 
 /// The column of the major edge, and whether it carries in its next step.
 pub(super) fn major<'m>(m: &'m Module, walk: &Walk<'m>, prim: &Token<'m>) -> (Signal<'m>, Signal<'m>) {
@@ -44,14 +45,6 @@ pub(super) fn minor<'m>(m: &'m Module, walk: &Walk<'m>, prim: &Token<'m>) -> (Si
     (minor.own["c"].q(), has_upper)
 }
 
-/// What a prim has of each edge: the parts of its first minor one, without that one's name.
-fn parts_of_edge(prim: &[Part]) -> Vec<Part> {
-    let of_edge = |part: &Part| {
-        part.name.strip_prefix("minor1_").map(|name| Part { name: name.to_owned(), ..part.clone() })
-    };
-    prim.iter().filter_map(of_edge).collect()
-}
-
 /// An edge as it is walked.
 struct Edge<'m> {
     name: &'m str,
@@ -75,26 +68,15 @@ impl<'m> Edge<'m> {
     /// R - f and the column of an edge a line further.
     fn next(&self, m: &'m Module) -> (Signal<'m>, Signal<'m>) {
         let Edge { name, rest, carry, own } = self;
-        let bits = rest.q().width();
-        let f = own["f"].q().zext(bits);
-        let rest = match own.get("m") {
-            // f first: that sum waits for nothing, and M only for the carry.
-            Some(modulus) => {
-                let less = (rest.q() - f).named(&format!("{name}_less"));
-                let back = carry.mux(modulus.q().zext(bits), m.lit(bits, 0)).named(&format!("{name}_back"));
-                less + back
-            }
-            // The modulus is 2^F, and R wraps by itself.
-            None => rest.q().trunc(bits - 1).zext(bits) - f,
-        };
+        let modulus = own.get("m").map(Reg::q);
+        let rest = Rest { name, rest: rest.q(), f: own["f"].q(), modulus }.next(m);
         let (c, q) = (own["c"].q(), own["q"].q());
         (rest, c + q + carry.zext(c.width()))
     }
 
     /// R - f of an edge with these parts at its first line.
     fn first_rest(&self, of_prim: impl Fn(&str) -> Signal<'m>) -> Signal<'m> {
-        let bits = self.rest.q().width();
-        of_prim("r").zext(bits) - of_prim("f").zext(bits)
+        first_rest(of_prim("r"), of_prim("f"))
     }
 
     /// What does not step.

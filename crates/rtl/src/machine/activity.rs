@@ -33,7 +33,9 @@ pub(super) fn activity<'m>(m: &'m Module, units: &Joined<'m>) -> Signal<'m> {
     let lower = in_flight.mux(flush, idle);
     let source = units.source();
     let lower = (!units.ready_for(source)).mux(setup, lower);
-    let lines = units.valid("span") | units.any("line_held") | units.valid("line");
+    // POLY offers no line while it passes through one.
+    let walks = units.find("walking").unwrap_or_else(|| units.valid("line"));
+    let lines = units.valid("span") | units.any("line_held") | walks;
     let lower = lines.mux(edge, lower);
     let lower = units.find("term_wait").map_or(lower, |no| no.mux(cause(Activity::Term), lower));
     let draws = units.any("visible").mux(draw, offscreen);

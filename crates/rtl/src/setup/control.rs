@@ -5,6 +5,7 @@ mod clocks;
 mod codes;
 mod feedback;
 mod counters;
+mod parts;
 mod pause;
 mod sequence;
 mod length;

@@ -9,6 +9,7 @@ use super::lines::Lines;
 use super::sort::Vertices;
 use super::steps::{Op, edge_of, rounds};
 use super::top::top;
+use super::walked::Walked;
 use crate::wires::Registers;
 
 /// Digits of both factors of a sum: of a, of b.
@@ -33,6 +34,7 @@ pub(super) struct Sources<'a, 'm> {
     pub area: &'a Area<'m>,
     pub lines: &'a Lines<'m>,
     pub prim: &'a Registers<'m>,
+    pub walked: &'a Walked<'m>,
 }
 
 impl<'m> Sources<'_, 'm> {
@@ -44,7 +46,8 @@ impl<'m> Sources<'_, 'm> {
         let product = |name: &str| {
             m.reg(name, self.bits()).doc("q of the major edge, times the factor's digits so far")
         };
-        let products = (plan.fill == Fill::Exact).then(|| ["q_times_f", "q_times_g"].map(product));
+        let shears = plan.fill == Fill::Exact && !plan.polygon.is_there();
+        let products = shears.then(|| ["q_times_f", "q_times_g"].map(product));
         let choices = self.choices(products, none);
         let of_side = |side: usize, name: &str| {
             let reg = m.reg(name, self.bits()).doc("factor, signed");
@@ -84,11 +87,12 @@ impl<'m> Sources<'_, 'm> {
         let (plan, lines) = (self.plan, self.lines);
         let natural = |value: Signal<'m>| value.zext(self.bits());
         let low = |place: usize| natural(self.low_column(place));
-        let used = |lines: &str| self.walked(lines).sext(self.bits());
-        let edge = |edge: usize| match edge {
-            0 => [low(0), natural(lines.h0)],
-            1 => [low(0), natural(lines.h0)].map(|factor| factor & used("n1")),
-            _ => [low(1), natural(lines.h1)].map(|factor| factor & used("n2")),
+        let edge = |edge: usize| {
+            let factors = || if edge < 2 { [low(0), natural(lines.h0)] } else { [low(1), natural(lines.h1)] };
+            match self.walked.edge(edge).map(|walked| walked.sext(self.bits())) {
+                Some(used) => factors().map(|factor| factor & used),
+                None => factors(),
+            }
         };
         let of_edges = |side: usize| {
             let choice = |round: usize| edge_of(plan, 0, round).map_or(none, |number| edge(number)[side]);
@@ -101,10 +105,11 @@ impl<'m> Sources<'_, 'm> {
         ];
         match products {
             Some(products) => choices.extend(self.sheared(products)),
+            None if plan.polygon.is_there() => choices.extend(self.of_window()),
             None => {
-                let of_part = |n: &str, h: Signal<'m>| [self.walked(n).mux(natural(h), 0), none];
-                choices.push((vec![Op::DoubleA, Op::WaitA], of_part("n1", lines.left_a)));
-                choices.push((vec![Op::DoubleB, Op::WaitB], of_part("n2", lines.left_b)));
+                let of_part = |part: usize, h: Signal<'m>| [self.walked.part(part).mux(natural(h), 0), none];
+                choices.push((vec![Op::DoubleA, Op::WaitA], of_part(0, lines.left_a)));
+                choices.push((vec![Op::DoubleB, Op::WaitB], of_part(1, lines.left_b)));
             }
         }
         choices
@@ -125,12 +130,29 @@ impl<'m> Sources<'_, 'm> {
         [(vec![Op::DoubleX], along), (vec![Op::AddX], [sheared.q(), self.lines.h0.zext(bits)])]
     }
 
+    /// With POLY: the factors of the step down, and from vertex 0 to the pixel at which values start.
+    fn of_window(&self) -> [(Vec<Op>, [Signal<'m>; 2]); 2] {
+        let (m, bits, across) = (self.m, self.bits(), &self.vertices.across);
+        let down = [0, 1].map(|side| -across[side].sext(bits));
+        let from_top = |name: &str, place: Signal<'m>, vertex: Signal<'m>| {
+            let center = m.cat(&[place, m.lit(self.plan.widths().center_fraction, 0)]).zext(bits);
+            (center - vertex.sext(bits)).named_doc(name, "from vertex 0 to where the values start, signed")
+        };
+        let place = |name: &str| self.prim[name].q();
+        let start = [
+            from_top("start_across", place("start_x"), self.vertices.u(0)),
+            from_top("start_down", place("start_y"), self.vertices.v(0)),
+        ];
+        [(vec![Op::DoubleX], down), (vec![Op::AddX], start)]
+    }
+
     /// Place of the highest digit of a sum: `digits` are those of the factors that differ from their signs,
     /// `second` the factors of the second minor edge, which four lanes do beside the others.
     fn top_digit(&self, mut digits: Signal<'m>, second: [Signal<'m>; 2]) -> Signal<'m> {
         let bits = self.bits();
         if self.plan.lanes == 4 {
-            let counts = (self.control.way.named.is(Op::WaitDx) & self.walked("n2")).named("second_counts");
+            let walked = self.walked.edge(2).unwrap_or_else(|| self.walked.part(1));
+            let counts = (self.control.way.named.is(Op::WaitDx) & walked).named("second_counts");
             let both = (second[0].zext(bits) | second[1].zext(bits)).trunc(bits - 1);
             digits = digits | counts.mux(both, 0);
         }
@@ -141,11 +163,6 @@ impl<'m> Sources<'_, 'm> {
     fn low_column(&self, place: usize) -> Signal<'m> {
         let low = self.vertices.u(place).trunc(self.plan.widths().center_fraction);
         if self.plan.fill == Fill::Textbook { low | 1 } else { low }
-    }
-
-    /// A part has lines.
-    fn walked(&self, lines: &str) -> Signal<'m> {
-        self.prim[lines].q().any()
     }
 }
 

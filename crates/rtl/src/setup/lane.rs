@@ -67,14 +67,6 @@ pub(super) fn lane(name: &str, shape: Shape) -> Result<Arc<Netlist>, BuildErrors
     m.finish()
 }
 
-/// a + b + carry; the sum has a lowest bit more, out of which the carry comes.
-pub(super) fn plus<'m>(name: &str, a: Signal<'m>, b: Signal<'m>, carry: Signal<'m>) -> Signal<'m> {
-    let m = a.module();
-    let sum =
-        (m.cat(&[a, m.lit(1, 1)]) + m.cat(&[b, carry])).named_doc(name, "and a carry out of the lowest bit");
-    sum.slice(a.width(), 1)
-}
-
 /// What is read is not written in this clock. No pair that is needed ever is: said, it spares what would keep
 /// the old word.
 fn apart<'m>(write: Signal<'m>, write_at: Signal<'m>, read_at: Signal<'m>) -> Signal<'m> {

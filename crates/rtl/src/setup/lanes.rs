@@ -140,7 +140,10 @@ impl<'a, 'm> Common<'a, 'm> {
             control.way.rest.is(Op::SumStart)
                 | only(exact, control.way.rest.one_of(&[Op::DoubleDx, Op::Sum])),
             only(exact && plan.fill == Fill::Exact, control.way.rest.is(Op::Sum)),
-            only(plan.fill == Fill::Exact, control.way.rest.is(Op::DoubleX) & right),
+            only(
+                plan.fill == Fill::Exact && !plan.polygon.is_there(),
+                control.way.rest.is(Op::DoubleX) & right,
+            ),
         ];
         Common {
             m,

@@ -5,6 +5,7 @@ use edgewalk_netlist::{Module, Reg, Signal};
 
 use super::area::Area;
 use super::control::Control;
+use super::polygon::Polygon;
 use super::role::Role;
 use super::sort::Vertices;
 use crate::light_pass::LightPass;
@@ -17,6 +18,8 @@ pub(super) struct Screen<'a, 'm> {
     pub light_pass: LightPass<'m>,
     /// With lines.
     pub role: Option<Role<'m>>,
+    /// With POLY.
+    pub polygon: Option<Polygon<'m>>,
 }
 
 impl<'m> Screen<'_, 'm> {
@@ -100,8 +103,9 @@ impl<'m> Lines<'m> {
             (line - v).named_doc(name, "1/P line")
         };
         // The first line is the vertex's own but for one above the screen, and none is farther above than
-        // half a difference.
-        let (h0, h1) = (down("h0", 0, jm, bits - 2), down("h1", 1, j1, bits - 2));
+        // half a difference; a window may begin a screen below that.
+        let bits_of_h = if screen.polygon.is_some() { bits - 1 } else { bits - 2 };
+        let (h0, h1) = (down("h0", 0, jm, bits_of_h), down("h1", 1, j1, bits_of_h));
         let (left_a, left_b) = match plan.fill {
             Fill::Exact => (h0, h1),
             Fill::Textbook => {
@@ -157,8 +161,23 @@ fn exact<'m>(
         let up = v.trunc(t).any().zext(bits);
         let ceil = (down.slice(down.width() - 1, t).zext(bits) + up)
             .named_doc(&format!("line{place}"), "ceil(v/P) of one that is not above the screen");
-        let on_screen = down.le(screen.last_center(down.width())).mux(ceil, screen.height(bits));
-        m.reg(name, bits).doc("line of the screen").set(v.msb().mux(0, on_screen)).q()
+        let line = match screen.polygon {
+            None => {
+                let on_screen = down.le(screen.last_center(down.width())).mux(ceil, screen.height(bits));
+                v.msb().mux(0, on_screen)
+            }
+            Some(Polygon { first, end, .. }) => {
+                // At a line or above it: ceil(v/P) is that line's number or less.
+                let at_most = |line: Signal<'m>| {
+                    let center = m.cat(&[line, m.lit(t, 0)]);
+                    let bits = center.width().max(down.width());
+                    down.zext(bits).le(center.zext(bits))
+                };
+                let above = v.msb() | at_most(first);
+                above.mux(first.zext(bits), at_most(end).mux(ceil, end.zext(bits)))
+            }
+        };
+        m.reg(name, bits).doc("line of the screen").set(line).q()
     };
     let (j0, j1, end) = (line(0, "j0"), line(1, "j1"), line(2, "end_line"));
     let [n1, n2] = counts;
@@ -168,7 +187,11 @@ fn exact<'m>(
     // A line may have a pixel beside all of its vertices' columns: SPAN drops what lies off the screen.
     let outside = screen.role.map_or(outside, |role| outside & !role.thin);
     let outside = m.reg("no_column", 1).doc("no column of the screen").set(outside).q();
-    control.feedback.nothing.drive(j0.eq(end) | outside);
+    let nothing = match screen.polygon {
+        None => j0.eq(end) | outside,
+        Some(Polygon { plane, triangle, .. }) => !plane & (j0.eq(end) | (outside & triangle)),
+    };
+    control.feedback.nothing.drive(nothing);
     (j0, j1)
 }
 

@@ -11,7 +11,7 @@ use super::scale::Scale;
 use super::sort::{ENDS, Vertices};
 use super::steps::{Op, channel_of, edge_of, rounds};
 use super::values::Values;
-use crate::wires::Registers;
+use super::walked::Walked;
 
 /// Where it comes from.
 pub(super) struct Sources<'a, 'm> {
@@ -21,7 +21,7 @@ pub(super) struct Sources<'a, 'm> {
     pub vertices: &'a Vertices<'m>,
     pub area: &'a Area<'m>,
     pub scale: &'a Scale<'m>,
-    pub prim: &'a Registers<'m>,
+    pub walked: &'a Walked<'m>,
     pub values: &'a Values<'m>,
 }
 
@@ -73,7 +73,9 @@ impl<'m> Sources<'_, 'm> {
         let unfit = lane.instance.output("unfit");
         match self.plan.fill {
             Fill::Exact if !self.has_edge(lane) => None,
-            Fill::Exact if rounds(self.plan)[0] == 1 && lane.number == 0 => Some(unfit),
+            Fill::Exact if rounds(self.plan)[0] == 1 && lane.number == 0 => {
+                Some(self.walked.edge(0).map_or(unfit, |walked| unfit & walked))
+            }
             Fill::Exact => Some(unfit & self.edge_needed(lane)),
             Fill::Textbook => Some(unfit & self.needed(lane)),
         }
@@ -84,9 +86,7 @@ impl<'m> Sources<'_, 'm> {
         let yes_or_no = |yes: bool| self.m.lit(1, yes.into());
         self.control.way.stepped.of_round(rounds(self.plan)[0], |round| {
             match edge_of(self.plan, lane.number, round) {
-                Some(0) => yes_or_no(true),
-                Some(1) => self.lines("n1"),
-                Some(_) => self.lines("n2"),
+                Some(edge) => self.walked.edge(edge).unwrap_or_else(|| yes_or_no(true)),
                 None => yes_or_no(false),
             }
         })
@@ -98,13 +98,9 @@ impl<'m> Sources<'_, 'm> {
         let channel = stepped.of_round(rounds(self.plan)[1], |round| {
             self.m.lit(1, channel_of(self.plan, lane.number, round).is_some().into())
         });
-        let part = |take: Op, lines: &str| stepped.is(take) & self.lines(lines);
-        let parts = part(Op::TakeA, "n1") | part(Op::TakeB, "n2");
+        let part = |take: Op, part: usize| stepped.is(take) & self.walked.part(part);
+        let parts = part(Op::TakeA, 0) | part(Op::TakeB, 1);
         (stepped.is(Op::TakeDx) & self.edge_needed(lane)) | (parts & channel)
-    }
-
-    fn lines(&self, part: &str) -> Signal<'m> {
-        self.prim[part].q().any()
     }
 
     /// The right side is that of the major edge.

@@ -7,7 +7,8 @@ use edgewalk_netlist::{Module, Reg, Signal};
 use super::control::Control;
 use super::lanes::Lane;
 use super::sort::Vertices;
-use super::steps::{EDGES as ALL_EDGES, Op};
+use super::steps::{EDGES as ALL_EDGES, Op, rounds};
+use super::walked::Walked;
 use crate::wires::Registers;
 
 /// Where results come from and go to.
@@ -17,12 +18,14 @@ pub(super) struct Results<'a, 'm> {
     pub control: &'a Control<'m>,
     pub vertices: &'a Vertices<'m>,
     pub prim: &'a Registers<'m>,
+    pub walked: &'a Walked<'m>,
 }
 
 impl<'m> Results<'_, 'm> {
     /// Takes all results of all lanes.
     pub fn take(&self, lanes: &[Lane<'m>]) {
         for edge in 0..ALL_EDGES {
+            self.left_out(edge);
             let (round, lane) = (edge / lanes.len(), &lanes[edge % lanes.len()]);
             match self.plan.edge_kind {
                 EdgeKind::Exact => self.edge_exact(edge, round, lane),
@@ -42,16 +45,20 @@ impl<'m> Results<'_, 'm> {
         self.prim[format!("{name}_{result}").as_str()]
     }
 
-    /// The part of the edge has lines.
-    fn walked(&self, edge: usize) -> Option<Signal<'m>> {
-        [None, Some("n1"), Some("n2")][edge].map(|lines| self.prim[lines].q().any())
-    }
-
     /// The edge steps: its part has lines, and it is a pixel high at least.
     fn steps(&self, edge: usize) -> Signal<'m> {
         let height = self.vertices.heights[edge];
         let high = height.slice(height.width() - 1, self.plan.widths().center_fraction).any();
-        self.walked(edge).map_or(high, |walked| walked & high)
+        self.walked.edge(edge).map_or(high, |walked| walked & high)
+    }
+
+    /// With POLY: an edge of a round that is left out is 0.
+    fn left_out(&self, edge: usize) {
+        if self.plan.polygon.is_there() && rounds(self.plan)[0] > 1 {
+            for result in ["c", "r", "q", "f"] {
+                self.register(EDGES[edge], result).when(self.control.sequence.take, 0);
+            }
+        }
     }
 
     fn edge_exact(&self, edge: usize, round: usize, lane: &Lane<'m>) {
@@ -68,7 +75,7 @@ impl<'m> Results<'_, 'm> {
         q.when(whole_now, steps.mux(value.trunc(q.q().width()), 0));
         let (r, c) = (self.register(name, "r"), self.register(name, "c"));
         let (rest_now, whole_now) = after(Op::Sum);
-        let walked = |value: Signal<'m>| self.walked(edge).map_or(value, |walked| walked.mux(value, 0));
+        let walked = |value: Signal<'m>| self.walked.edge(edge).map_or(value, |walked| walked.mux(value, 0));
         let (onward, column) = match self.plan.fill {
             // From the edge on to the next whole column: M less the rest, where there is one.
             Fill::Exact => {
@@ -98,7 +105,7 @@ impl<'m> Results<'_, 'm> {
             Fill::Textbook => !rounded,
         };
         let start = self.control.way.whole.ends_in(Op::DoubleColumns, round);
-        let walked = |value: Signal<'m>| self.walked(edge).map_or(value, |walked| walked.mux(value, 0));
+        let walked = |value: Signal<'m>| self.walked.edge(edge).map_or(value, |walked| walked.mux(value, 0));
         self.register(name, "c").when(start, walked(-whole(distance)));
         self.register(name, "r").when(start, walked(distance.trunc(bits)));
     }
@@ -111,9 +118,17 @@ impl<'m> Results<'_, 'm> {
         let t = self.plan.widths().center_fraction;
         let start = value.slice(channel.word() + t - 1, t);
         let (whole, register) = (&self.control.way.whole, |result| self.register(name, result));
-        register("g").when(whole.ends_in(Op::DoubleX, round), rounded); // negated where the major edge lies right
+        if self.plan.polygon.is_there() {
+            // What has no values keeps these.
+            for result in ["g", "d0", "start"] {
+                register(result).when(self.control.sequence.take, 0);
+            }
+        }
+        register("g").when(whole.ends_in(Op::DoubleX, round), rounded); // negated where the spans run left
         register("d0").when(whole.ends_in(Op::DoubleLine, round), rounded);
-        register("d1").when(whole.ends_in(Op::AddX, round), rounded);
+        if !self.plan.polygon.is_there() {
+            register("d1").when(whole.ends_in(Op::AddX, round), rounded);
+        }
         // What is taken before it is done is taken again.
         register("start").when(whole.is_in(Op::SumStart, round), start);
     }
@@ -125,13 +140,13 @@ impl<'m> Results<'_, 'm> {
         let after = |op: Op| self.control.way.whole.ends_in(op, round);
         self.register(name, "g").when(after(Op::DoubleX), rounded);
         let results = [
-            ("d_a", Op::DoubleA, "n1"),
-            ("start_a", Op::DoubleStartA, "n1"),
-            ("d_b", Op::DoubleB, "n2"),
-            ("start_b", Op::DoubleStartB, "n2"),
+            ("d_a", Op::DoubleA, 0),
+            ("start_a", Op::DoubleStartA, 0),
+            ("d_b", Op::DoubleB, 1),
+            ("start_b", Op::DoubleStartB, 1),
         ];
-        for (result, op, lines) in results {
-            let used = self.prim[lines].q().any();
+        for (result, op, part) in results {
+            let used = self.walked.part(part);
             self.register(name, result).when(after(op), used.mux(rounded, 0));
         }
     }

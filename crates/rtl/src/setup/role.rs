@@ -3,6 +3,7 @@
 use edgewalk_netlist::Signal;
 
 use super::control::Control;
+use super::polygon::Kind;
 use crate::wires::{Registers, Token};
 
 /// What the vertices are, in a machine that takes lines.
@@ -18,8 +19,9 @@ impl<'m> Role<'m> {
     /// Takes it with the vertices, for the prim and the lines; none where the port takes triangles only.
     pub fn take(control: &Control<'m>, triangle: &Token<'m>, prim: &Registers<'m>) -> Option<Role<'m>> {
         let (thin, flat) = (prim.get("thin")?, prim.get("flat")?);
-        thin.when(control.sequence.take, triangle["thin"]);
-        flat.when(control.sequence.take, triangle["thin"] & triangle["flat"]);
+        let is_line = triangle.get("thin").unwrap_or_else(|| triangle["kind"].eq(Kind::Line as i32));
+        thin.when(control.sequence.take, is_line);
+        flat.when(control.sequence.take, is_line & triangle["flat"]);
         Some(Role { thin: thin.q(), flat: flat.q() })
     }
 }

@@ -5,8 +5,9 @@ use edgewalk_netlist::{Module, Reg, Signal};
 
 use super::area::Area;
 use super::control::Control;
-use super::lane::{modulus_bits, plus};
+use super::lane::modulus_bits;
 use super::steps::{Op, longest_value, rounds};
+use crate::wires::plus;
 
 /// While these are named the lanes are shown the differences of the first round of channels: c1 - c2, c1 -
 /// c0, c0 - c2.

@@ -69,6 +69,8 @@ pub(super) enum Op {
     /// d1.
     AddX,
     WaitLine,
+    /// With POLY, where the signs of start's factors may ask for d1.
+    WaitLonger,
     /// start.
     SignStart,
     SumStart,
@@ -133,6 +135,10 @@ impl Op {
     pub fn of_channels(plan: &Plan) -> &'static [Op] {
         use Op::*;
         match plan.fill {
+            Fill::Exact if plan.polygon.is_there() => &[
+                Take12, Take1, Take2, Wait, SumX, DoubleX, SignLine, SumLine, DoubleLine, AddX, WaitLonger,
+                SignStart, SumStart,
+            ],
             Fill::Exact => &[
                 Take12, Take1, Take2, Wait, SumX, DoubleX, SignLine, SumLine, DoubleLine, AddX, WaitLine,
                 SignStart, SumStart,
@@ -177,7 +183,9 @@ impl Op {
             DoubleColumns => (Step::Double2, Length::Doublings(of_columns), 0, None),
             AddDx => (Step::Add, Length::Clocks(1), 2, Some(3)),
             Subtract | Wait | WaitLine | WaitA | WaitB => (Step::Rest, Length::Clocks(1), 0, None),
-            WaitDx | RoundColumns | RoundX | RoundA | RoundB => (Step::Rest, Length::Clocks(2), 0, None),
+            WaitDx | WaitLonger | RoundColumns | RoundX | RoundA | RoundB => {
+                (Step::Rest, Length::Clocks(2), 0, None)
+            }
             Sum | SumX | SumA | SumB => (Step::First, Length::Digits, 0, None),
             DoubleX => (Step::Double2, Length::Scaled(of_gradient), 0, Some(5)),
             DoubleLine => (Step::Double2, Length::Scaled(of_gradient), 0, Some(6)),

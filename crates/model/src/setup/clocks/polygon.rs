@@ -42,7 +42,12 @@ impl Timing {
     }
 
     /// S2 of a plane.
-    pub(crate) fn phase2_of_plane<const C: usize>(&self, sorted: &Sorted<C>, mut scale: u32, area: i64) -> u32 {
+    pub(crate) fn phase2_of_plane<const C: usize>(
+        &self,
+        sorted: &Sorted<C>,
+        mut scale: u32,
+        area: i64,
+    ) -> u32 {
         let [a, b, c] = &sorted.corners;
         let (du1, dv1, du2, dv2) = (b.u - a.u, b.v - a.v, c.u - a.u, c.v - a.v);
         let along = unsigned(dv1 | dv2);

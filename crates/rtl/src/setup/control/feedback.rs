@@ -19,6 +19,18 @@ pub(in crate::setup) struct Feedback<'m> {
     pub unfit: Wire<'m>,
     /// Place of the first digit of the next sum.
     pub top_digit: Wire<'m>,
+    /// With POLY.
+    pub polygon: Option<PolygonFeedback<'m>>,
+}
+
+/// The token's part in a polygon, from the clock after it is taken.
+pub(in crate::setup) struct PolygonFeedback<'m> {
+    /// Sides that count: major, first, second minor edge.
+    pub sides: Wire<'m>,
+    /// Edges without values.
+    pub edges: Wire<'m>,
+    /// It is not culled.
+    pub plane: Wire<'m>,
 }
 
 impl<'m> Feedback<'m> {
@@ -32,6 +44,11 @@ impl<'m> Feedback<'m> {
             scale: wire("scale", most_scale(plan).ilog2() + 1).doc("the modulus is the area 4^scale times"),
             unfit: wire("unfit", 1).doc("a number was taken in that is not between -M and M"),
             top_digit: wire("top_digit", digit_bits).doc("place of the first digit of a sum"),
+            polygon: plan.polygon.is_there().then(|| PolygonFeedback {
+                sides: wire("sides_counted", 3),
+                edges: wire("only_edges", 1),
+                plane: wire("with_plane", 1),
+            }),
         }
     }
 }

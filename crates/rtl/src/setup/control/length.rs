@@ -27,10 +27,15 @@ pub(super) fn load<'m>(base: &Base<'_, 'm>, sequence: &Sequence<'m>) {
         };
         length = at.eq(*before).mux(clocks, length);
     }
-    left.when(base.pause.advance & sequence.works, left.q() - 1)
-        .when(sequence.leaves, length)
-        .when(sequence.leaves & sequence.channels_end, 3)
-        .when(counters.state.q().eq(base.states.store), left.q() - 1)
+    left.when(base.pause.advance & sequence.works, left.q() - 1).when(sequence.leaves, length);
+    if let Some(no_side) = sequence.no_side() {
+        left.when(sequence.leaves & no_side & at.eq(codes.of(Op::TakeDx)), 0);
+    }
+    left.when(sequence.leaves & sequence.channels_end, 3);
+    if let Some(no_values) = sequence.ends_without_values() {
+        left.when(no_values, 3);
+    }
+    left.when(counters.state.q().eq(base.states.store), left.q() - 1)
         .when(sequence.waits, 0)
         .when(sequence.take, 0);
 }

@@ -3,7 +3,9 @@
 use edgewalk_machine::Fill;
 use edgewalk_netlist::Signal;
 
+use super::parts::Parts;
 use super::{Base, Handshakes};
+use crate::setup::steps::Op;
 
 /// Where SETUP stands.
 pub(in crate::setup) struct Sequence<'m> {
@@ -37,6 +39,8 @@ pub(in crate::setup) struct Sequence<'m> {
     pub ends: Signal<'m>,
     /// The next operation follows.
     pub leaves: Signal<'m>,
+    /// With POLY.
+    parts: Option<Parts<'m>>,
 }
 
 impl<'m> Sequence<'m> {
@@ -57,10 +61,19 @@ impl<'m> Sequence<'m> {
         let done = state.eq(states.done).named("prim_valid");
         let is_at = |place: usize| counters.at.q().eq(codes.at(place));
         let begin = (works & is_at(0)).named_doc("begins", "the first clock of a triangle");
-        let gives_up = rounds.during(works & is_at(1), 0) & feedback.nothing.q();
+        let parts = Parts::new(base.m, base.plan, feedback, rounds, begin);
+        let gives_up = match parts {
+            None => rounds.during(works & is_at(1), 0),
+            Some(parts) => works & parts.second,
+        };
+        let gives_up = gives_up & feedback.nothing.q();
         let gives_up = gives_up.named_doc("gives_up", "the triangle has no line or no column");
         let last = counters.left.q().eq(0).named_doc("last", "last clock of the operation");
-        let edges_end = rounds.during(last & is_at(codes.last_edge), rounds.of_edges - 1).named("edges_end");
+        let edges_end = match parts {
+            None => rounds.during(last & is_at(codes.last_edge), rounds.of_edges - 1),
+            Some(parts) => last & is_at(codes.last_edge) & parts.last_round,
+        };
+        let edges_end = edges_end.named("edges_end");
         let last_round = rounds.of_channels - 1;
         let mut begins_channels = edges_end;
         if last_round > 0 {
@@ -91,19 +104,35 @@ impl<'m> Sequence<'m> {
             goes,
             ends,
             leaves,
+            parts,
         }
     }
 
     fn update_state(&self, base: &Base<'_, 'm>, prim_ready: Signal<'m>) {
         let Base { states, counters, feedback, pause, .. } = base;
         let state = counters.state;
+        let culled = self.parts.map_or(feedback.no_area.q(), |parts| parts.culled);
         state
             .when(self.take, states.work)
             .when(self.gives_up & pause.advance, states.idle)
-            .when(self.edges_end & self.leaves & feedback.no_area.q(), states.idle)
+            .when(self.edges_end & self.leaves & culled, states.idle);
+        if let Some(no_values) = self.ends_without_values() {
+            state.when(no_values, states.store);
+        }
+        state
             .when(self.leaves & self.channels_end, states.store)
             .when(state.q().eq(states.store) & self.last, states.done)
             .when(self.done & prim_ready, states.idle);
+    }
+
+    /// The edges end, and no channels follow: only with POLY.
+    pub(super) fn ends_without_values(&self) -> Option<Signal<'m>> {
+        self.parts.map(|parts| self.edges_end & self.leaves & parts.no_values)
+    }
+
+    /// DX of a token without a side that counts is taken: the doubling that follows lasts a clock.
+    pub(super) fn no_side(&self) -> Option<Signal<'m>> {
+        self.parts.map(|parts| parts.no_side)
     }
 
     fn update_operation(&self, base: &Base<'_, 'm>) {
@@ -119,6 +148,11 @@ impl<'m> Sequence<'m> {
             let first_channel = codes.at(codes.last_edge + 1);
             next = (is_at(codes.last_channel()) & !self.channels_end).mux(first_channel, next);
         }
+        if let Some(parts) = self.parts {
+            // Meanwhile the differences were shown for which the area is scaled.
+            let shown = at.q().eq(codes.of(Op::DoubleDx)) & parts.no_side;
+            next = shown.mux(codes.at(codes.last_edge), next);
+        }
         at.when(self.leaves, next).when(self.take, codes.at(0));
         let first = counters.first;
         match plan.fill {
@@ -129,7 +163,15 @@ impl<'m> Sequence<'m> {
         };
         if let Some(round) = rounds.number {
             let turn = is_at(codes.last_edge) | is_at(codes.last_channel());
-            round.when(self.leaves & turn, round.q() + 1).when((self.leaves & self.edges_end) | self.take, 0);
+            let after = round.q() + 1;
+            match self.parts.and_then(|parts| parts.first_and_next) {
+                None => round.when(self.leaves & turn, after),
+                Some([first, next]) => round
+                    .when(self.leaves & is_at(codes.last_channel()), after)
+                    .when(self.leaves & is_at(codes.last_edge), next)
+                    .when(self.leaves & is_at(0), first),
+            };
+            round.when((self.leaves & self.edges_end) | self.take, 0);
         }
     }
 }

@@ -3,8 +3,9 @@
 use edgewalk_netlist::{Module, Reg, Signal, Wire};
 
 use super::inputs::Inputs;
-use super::{apart, flag, plus, repeat};
+use super::{apart, flag, repeat};
 use crate::setup::steps::Step;
+use crate::wires::plus;
 
 /// -M, or its complement -M - 1, with the 1 that is then missing.
 pub(super) struct Modulus<'m> {

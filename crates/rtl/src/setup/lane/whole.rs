@@ -4,8 +4,9 @@ use edgewalk_netlist::{Module, Reg, Signal};
 
 use super::inputs::Inputs;
 use super::step::{Done, Modulus, is};
-use super::{apart, flag, plus, repeat};
+use super::{apart, flag, repeat};
 use crate::setup::steps::Step;
+use crate::wires::plus;
 
 /// The whole part, a clock behind the rest.
 pub(super) fn whole<'m>(m: &'m Module, inputs: &Inputs<'m>, done: &Done<'m>) -> Signal<'m> {

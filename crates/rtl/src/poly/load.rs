@@ -1,0 +1,161 @@
+//! LOAD: the edges of a polygon go into the table and the order list.
+
+use edgewalk_machine::units::tokens::EDGES;
+use edgewalk_netlist::{Module, Signal};
+
+use super::table::{Tables, Word};
+use crate::stepping::first_rest;
+use crate::wires::Token;
+
+/// What LOAD reads of the rest of POLY.
+pub(super) struct Links<'a, 'm> {
+    /// Edges are offered.
+    pub prim_valid: Signal<'m>,
+    pub prim: &'a Token<'m>,
+    /// PIXEL has not loaded the increments of the polygon before.
+    pub fresh_queued: Signal<'m>,
+    /// The polygon before is still walked.
+    pub walking: Signal<'m>,
+    /// PASS writes to `rests`.
+    pub pass_writes: Signal<'m>,
+}
+
+/// What LOAD tells.
+pub(super) struct Load<'m> {
+    pub prim_ready: Signal<'m>,
+    /// The half that is loaded.
+    pub bank: Signal<'m>,
+    /// Edges in it.
+    pub edges: Signal<'m>,
+    /// It is walked from now on.
+    pub begins: Signal<'m>,
+    /// It has too many edges.
+    pub refused: Signal<'m>,
+    /// A word for `rests`: whether, where, and R - f with the lines left.
+    pub stores: Signal<'m>,
+    pub place: Signal<'m>,
+    pub rest: Signal<'m>,
+}
+
+/// A side of the prim: its edge, first line and lines.
+#[derive(Clone, Copy)]
+struct Side<'m> {
+    edge: &'static str,
+    first: Signal<'m>,
+    lines: Signal<'m>,
+}
+
+impl<'m> Load<'m> {
+    /// The registers of LOAD, and its ports of the memories.
+    pub fn new(m: &'m Module, tables: &Tables<'m>, links: &Links<'_, 'm>) -> Load<'m> {
+        let Links { prim_valid, prim, fresh_queued, walking, pass_writes } = *links;
+        m.comment("LOAD: the sides of a prim that count and have lines, one after the other.");
+        let bits = tables.index;
+        let bank = m.reg("bank", 1).doc("half of the table that is loaded").reset(0);
+        let edges = m.reg("edges", bits + 1).doc("in that half").reset(0);
+        let over = m.reg("over", 1).doc("there are more").reset(0);
+        let putting = m.reg("putting", 1).doc("an edge goes before others of the order list").reset(0);
+        let did = m.reg("did", 3).doc("sides of the prim that are loaded").reset(0);
+
+        let sides = sides(prim);
+        let is_left = |number: u32| {
+            let counts = prim["sides"].bit(number) & sides[number as usize].lines.any();
+            (counts & !did.q().bit(number)).named(&format!("{}_left", EDGES[number as usize]))
+        };
+        let [major, minor1, minor2] = [0, 1, 2].map(is_left);
+        let any_left = (major | minor1 | minor2).named("any_left");
+        let turn = m.cat(&[minor2 & !major & !minor1, minor1 & !major, major]).named("turn");
+        let takes =
+            (prim_valid & !putting.q() & any_left & !pass_writes).named_doc("takes", "a side is loaded");
+        let chosen = |of: &dyn Fn(Side<'m>) -> Signal<'m>| {
+            major.mux(of(sides[0]), minor1.mux(of(sides[1]), of(sides[2])))
+        };
+        let first = chosen(&|side| side.first).named("first_line");
+        let lines = chosen(&|side| side.lines).named("lines");
+        let part = |name: &str| chosen(&|side| prim[format!("{}_{name}", side.edge).as_str()]);
+
+        let closes = prim["ends"];
+        let prim_ready = !putting.q() & !any_left & !(closes & (walking | fresh_queued));
+        let prim_ready = prim_ready.named("prim_ready");
+        let fires = (prim_valid & prim_ready).named("fires");
+        let closes = (fires & closes).named_doc("closes", "the polygon has all its edges");
+        let begins = (closes & edges.q().any() & !over.q() & !prim["void"]).named("begins");
+        let refused = (closes & over.q()).named("refused");
+        bank.when(closes, !bank.q());
+        did.when(takes, did.q() | turn).when(fires, 0);
+
+        let full = edges.q().msb();
+        over.when(takes & full, 1).when(closes, 0);
+        let stores = (takes & !full).named("stores");
+        let place = tables.at(bank.q(), edges.q());
+        tables.steps.write(stores, place, tables.joined_steps(part));
+        let rest = first_rest(part("r"), part("f")).named_doc("first_rest", "R - f, signed");
+
+        let order = Order { m, tables, bank: bank.q(), edges: edges.q(), putting: putting.q() };
+        let Ordered { appends, inserts, ended } = order.sort(stores, first);
+        putting.when(ended, 0).when(inserts, 1);
+        edges.when(appends | ended, edges.q() + 1).when(closes, 0);
+
+        let (bank, edges) = (bank.q(), edges.q());
+        Load { prim_ready, bank, edges, begins, refused, stores, place, rest: m.cat(&[rest, lines]) }
+    }
+}
+
+/// The sides of a prim: major, first and second minor edge.
+fn sides<'m>(prim: &Token<'m>) -> [Side<'m>; 3] {
+    let (first, upper, lower) = (prim["jm"], prim["n1"], prim["n2"]);
+    let all = (upper + lower).named("all_lines");
+    let knee = (first + upper.trunc(first.width())).named_doc("knee", "first line of the lower part");
+    let side = |edge: usize, first: Signal<'m>, lines: Signal<'m>| Side { edge: EDGES[edge], first, lines };
+    [side(0, first, all), side(1, first, upper), side(2, knee, lower)]
+}
+
+/// The order list of the half that is loaded.
+struct Order<'a, 'm> {
+    m: &'m Module,
+    tables: &'a Tables<'m>,
+    bank: Signal<'m>,
+    edges: Signal<'m>,
+    putting: Signal<'m>,
+}
+
+/// What becomes of an edge.
+struct Ordered<'m> {
+    /// It goes behind the others.
+    appends: Signal<'m>,
+    /// It goes before some, which first move up.
+    inserts: Signal<'m>,
+    /// They have moved, it is put there.
+    ended: Signal<'m>,
+}
+
+impl<'m> Order<'_, 'm> {
+    /// Sorts an edge in by its first line: of equal lines the earlier edge stays first.
+    fn sort(&self, stores: Signal<'m>, first: Signal<'m>) -> Ordered<'m> {
+        let Order { m, tables, bank, edges, putting } = *self;
+        m.comment("The order list: those that begin later move up, a clock each.");
+        let last = m.reg("last_first", tables.line).doc("first line of the last edge of the list");
+        let position = m.reg("position", tables.index).doc("the place that is free");
+        let line = m.reg("put_line", tables.line).doc("first line of the edge that is put there");
+        let before = position.q().any();
+        let own = Word { key: first, index: edges.trunc(tables.index) };
+
+        let later =
+            (first.ge(last.q()) | !edges.any()).named_doc("later", "no edge of the list begins later");
+        let appends = (stores & later).named("appends");
+        let inserts = (stores & !later).named("inserts");
+        // The edge's own number is that of the edges before it, until it is put.
+        let put = Word { key: line.q(), index: own.index };
+        let below = (putting.mux(position.q() - 1, edges.trunc(tables.index)) - 1).named("below");
+        let word = tables.word(tables.order.read(m.lit(1, 1), tables.at(bank, below)));
+        let moves = (putting & before & word.key.gt(line.q())).named("moves_up");
+        let ended = (putting & !moves).named("ended");
+        last.when(appends, first);
+        line.when(inserts, first);
+        position.when(moves, position.q() - 1).when(inserts, edges.trunc(tables.index));
+        let place = putting.mux(position.q(), edges.trunc(tables.index)).named("order_place");
+        let written = Word::choose(putting, Word::choose(moves, word, put), own);
+        tables.order.write(appends | putting, tables.at(bank, place), written.joined());
+        Ordered { appends, inserts, ended }
+    }
+}

@@ -1,0 +1,193 @@
+//! MOVER: takes the values of the channels from span to span.
+
+use edgewalk_machine::Plan;
+use edgewalk_machine::units::tokens;
+use edgewalk_netlist::{Module, Signal};
+
+use super::pass::Pair;
+use crate::light_pass::LightPass;
+use crate::wires::{Registers, Token, parts, plus};
+
+/// What MOVER reads of the rest of POLY.
+pub(super) struct Links<'a, 'm> {
+    pub prim: &'a Token<'m>,
+    /// A polygon begins.
+    pub begins: Signal<'m>,
+    /// One is walked.
+    pub walking: Signal<'m>,
+    pub pair: Pair<'m>,
+    /// The line is accepted.
+    pub line_ready: Signal<'m>,
+}
+
+/// What MOVER tells.
+pub(super) struct Mover<'m> {
+    /// The pair is taken or dropped.
+    pub pair_leaves: Signal<'m>,
+    /// It holds a span.
+    pub has_span: Signal<'m>,
+    pub line_valid: Signal<'m>,
+    /// For PIXEL.
+    pub increments: Registers<'m>,
+    line: Token<'m>,
+}
+
+/// The columns of a pair on the screen.
+struct Columns<'m> {
+    first: Signal<'m>,
+    behind: Signal<'m>,
+    /// There are some.
+    some: Signal<'m>,
+}
+
+/// Where the values go to.
+struct Way<'m> {
+    /// A line down.
+    down: Signal<'m>,
+    /// Columns are left to go.
+    along: Signal<'m>,
+    /// What is added a column is doubled.
+    doubles: Signal<'m>,
+    /// The values change in this clock.
+    adds: Signal<'m>,
+    /// The columns lie to the left.
+    left: Signal<'m>,
+}
+
+impl<'m> Mover<'m> {
+    /// The registers of MOVER.
+    pub fn new(m: &'m Module, plan: &Plan, light_pass: LightPass<'m>, links: &Links<'_, 'm>) -> Mover<'m> {
+        let Links { prim, begins, walking, pair, line_ready } = *links;
+        m.comment("MOVER: the pair that waits, cut to the screen; it is dropped if nothing is left.");
+        let columns = Columns::new(m, plan, light_pass, pair);
+        let has_span = m.reg("has_span", 1).doc("a span is offered, or values move to it").reset(0);
+        let arrives = m.wire("line_valid", 1);
+        let fires = (arrives.q() & line_ready).named("line_fires");
+        let free = (!has_span.q() | fires).named("free");
+        let takes = (pair.waits & columns.some & free).named("takes_pair");
+        let pair_leaves = pair.waits & (free | !columns.some);
+        has_span.when(fires, 0).when(takes, 1);
+
+        let way = Way::new(m, plan, links, columns.first, takes);
+        arrives.drive(has_span.q() & !way.down & !way.along);
+
+        m.comment("The line that is offered. While no polygon is walked everything takes the next one, again and again.");
+        let mut kept = parts(&tokens::line(plan));
+        kept.retain(|part| part.name != "major_right" && part.name != "fence");
+        let line = Registers::new(m, "line", kept);
+        line["y"].when(takes, pair.line);
+        line["cmaj"].when(takes, columns.first);
+        line["cmin"].when(takes, columns.behind);
+        line["fresh"].when(fires, 0).when(!walking, 1);
+        for name in ["thin", "flat", "tag"] {
+            if let (Some(register), Some(value)) = (line.get(name), prim.get(name)) {
+                register.when(!walking, value);
+            }
+        }
+        let increments = Registers::new(m, "inc", parts(&tokens::held_by_edge(plan)));
+        for name in ["kt", "record"] {
+            if let (Some(register), Some(value)) = (increments.get(name), prim.get(name)) {
+                register.when(begins, value);
+            }
+        }
+        m.comment("The values: d0 is added a line, and the increment as often as its double has a bit in the number of columns.");
+        for channel in plan.channels().iter().map(|channel| channel.name) {
+            let of_prim = |result: &str| prim[format!("{channel}_{result}").as_str()];
+            let increment = increments[channel].when(begins, of_prim("g")).q();
+            let down = of_prim("d0");
+            let down = m
+                .reg(&format!("{channel}_d0"), down.width())
+                .doc("step to the next line")
+                .when(!walking, down)
+                .q();
+            let along = m
+                .reg(&format!("{channel}_along"), down.width())
+                .doc("increment, doubled as often as it was asked for");
+            along.when(way.doubles, along.q().shl(1)).when(takes, increment);
+            let along = along.q() ^ way.left.sext(down.width());
+            let added = way.down.mux(down, along).named(&format!("{channel}_added"));
+            let value = line[channel];
+            let moved = plus(&format!("{channel}_moved"), value.q(), added, !way.down & way.left);
+            value.when(way.adds, moved).when(!walking, of_prim("start"));
+        }
+        let (has_span, line_valid) = (has_span.q(), arrives.q());
+        Mover { pair_leaves, has_span, line_valid, increments, line: line.token() }
+    }
+
+    /// A field of the line.
+    pub fn line(&self, name: &str) -> Signal<'m> {
+        match name {
+            // A span begins at its left end.
+            "major_right" => self.has_span.module().lit(1, 0),
+            // Of one polygon no two spans have a pixel in common.
+            "fence" => self.line["fresh"],
+            own => self.line[own],
+        }
+    }
+}
+
+impl<'m> Columns<'m> {
+    fn new(m: &'m Module, plan: &Plan, light_pass: LightPass<'m>, pair: Pair<'m>) -> Columns<'m> {
+        let Pair { left, right, thin, .. } = pair;
+        let width = light_pass.number(m, left.width(), plan.width.into(), plan.shadow.size.into());
+        let beyond = |column: Signal<'m>| !column.msb() & column.ge(width);
+        let beyond_right = beyond(right).named_doc("right_cut", "the pair ends beside the screen");
+        let before_left = left.msb().named_doc("left_cut", "the pair begins beside the screen");
+        let right_of_first = !right.msb() & right.any();
+        let some =
+            (left.slt(right) & !beyond(left) & right_of_first).named_doc("some_columns", "of the screen");
+        let whole = |cut: Signal<'m>| thin.map_or(cut, |thin| cut & !thin);
+        Columns {
+            first: whole(before_left).mux(0, left).named("first"),
+            behind: whole(beyond_right).mux(width, right).named("behind"),
+            some: thin.map_or(some, |thin| thin | some),
+        }
+    }
+}
+
+impl<'m> Way<'m> {
+    /// From the span before, or from where the values start, to the pair that is taken.
+    fn new(
+        m: &'m Module,
+        plan: &Plan,
+        links: &Links<'_, 'm>,
+        first: Signal<'m>,
+        takes: Signal<'m>,
+    ) -> Way<'m> {
+        let Links { prim, walking, pair, .. } = *links;
+        m.comment("The way to the span: lines down, then columns to the right or to the left.");
+        let bits = column_bits(plan);
+        let line = m.reg("at_line", pair.line.width()).doc("line of the span before");
+        let column = m.reg("at_column", bits).doc("its first column");
+        let first = first.trunc(bits);
+        let below = pair.line - line.q();
+        let beside =
+            (first.zext(bits + 1) - column.q().zext(bits + 1)).named_doc("beside", "signed, columns");
+        let left = beside.msb();
+        let far = (beside.trunc(bits) ^ left.sext(bits)) + left.zext(bits);
+        let far = pair.thin.map_or(far, |thin| thin.mux(0, far)).named("columns_away");
+        line.when(takes, pair.line).when(!walking, prim["start_y"]);
+        column.when(takes, first).when(!walking, prim["start_x"].zext(bits));
+
+        let lines = m.reg("lines_down", pair.line.width()).doc("lines left to go down");
+        let columns = m.reg("columns_along", bits).doc("columns left to go, in doubles of what is added");
+        let down = m.reg("down", 1).doc("lines are left");
+        let along = m.reg("along", 1).doc("columns are left");
+        let to_left = m.reg("to_left", 1).doc("they lie to the left").when(takes, left).q();
+        let doubles = (!down.q() & along.q()).named("doubles");
+        let half = columns.q().shr(1);
+        lines.when(down.q(), lines.q() - 1).when(takes, below);
+        down.when(down.q(), lines.q().ne(1)).when(takes, below.any());
+        columns.when(doubles, half).when(takes, far);
+        along.when(doubles, half.any()).when(takes, far.any());
+        let adds = (down.q() | (along.q() & columns.q().bit(0))).named("adds");
+        Way { down: down.q(), along: along.q(), doubles, adds, left: to_left }
+    }
+}
+
+/// Bits of a column of the screen, of the map that the machine draws, or of the pixel at which values start.
+fn column_bits(plan: &Plan) -> u32 {
+    let [start, _] = plan.window_bits();
+    let widest = if plan.shadow.draws_map() { plan.width.max(plan.shadow.size) } else { plan.width };
+    widest.next_power_of_two().ilog2().max(start)
+}

@@ -1,0 +1,212 @@
+//! PASS: goes through the active list of a line, and makes that of the next.
+
+use edgewalk_netlist::{Module, Reg, Signal};
+
+use super::insert::{Comes, Inserts};
+use super::load::Load;
+use super::table::{Tables, Word};
+use crate::stepping::Rest;
+use crate::wires::Token;
+
+/// What PASS reads of the rest of POLY.
+pub(super) struct Links<'a, 'm> {
+    pub load: &'a Load<'m>,
+    pub prim: &'a Token<'m>,
+    /// A polygon is walked.
+    pub walking: Signal<'m>,
+    /// MOVER takes the pair that waits, or drops it.
+    pub pair_leaves: Signal<'m>,
+}
+
+/// What PASS tells.
+pub(super) struct Pass<'m> {
+    /// Lines are passed.
+    pub run: Signal<'m>,
+    /// It writes to `rests`.
+    pub writes: Signal<'m>,
+    pub pair: Pair<'m>,
+}
+
+/// The pair of columns that waits for MOVER.
+#[derive(Clone, Copy)]
+pub(super) struct Pair<'m> {
+    /// There is one.
+    pub waits: Signal<'m>,
+    pub line: Signal<'m>,
+    pub left: Signal<'m>,
+    pub right: Signal<'m>,
+    /// It is the pixel of a line, twice.
+    pub thin: Option<Signal<'m>>,
+}
+
+/// The registers of a line, without updates.
+struct Line<'m> {
+    run: Reg<'m>,
+    y: Reg<'m>,
+    /// The active list that is read.
+    list: Reg<'m>,
+    half: Reg<'m>,
+    /// Valid of the stages.
+    b_valid: Reg<'m>,
+    c_valid: Reg<'m>,
+    entering: Reg<'m>,
+}
+
+impl<'m> Pass<'m> {
+    /// The registers of PASS, and its ports of the memories.
+    pub fn new(m: &'m Module, tables: &Tables<'m>, links: &Links<'_, 'm>) -> Pass<'m> {
+        let Links { load, prim, walking, pair_leaves } = *links;
+        m.comment(
+            "PASS: the active list of line y through the stages B, a word, and C, the word with its record.",
+        );
+        let line = Line::new(m, tables);
+        let Line { run, y, half, b_valid, c_valid, entering, .. } = line;
+        let held = |name: &str| prim.get(name).map(|value| m.reg(name, 1).when(!walking, value).q());
+        let thin = held("thin");
+        let pair_waits = m.reg("pair_waits", 1).doc("a pair of columns waits for MOVER").reset(0);
+
+        let leaving = c_valid.q() & !entering.q();
+        let leaving = leaving.named_doc("passed", "the edge of C meets line y");
+        let pairs = (leaving & thin.map_or(half.q(), |thin| thin | half.q())).named("closes_pair");
+        let blocked = (pairs & pair_waits.q()).named("blocked");
+        let inserts = Inserts::new(m, tables);
+        let advance = (run.q() & !inserts.holds() & !blocked).named("advance");
+
+        let entry = Entry::new(m, tables, load, &line, advance);
+        let ends = run.q() & !inserts.valid.q() & !b_valid.q() & !c_valid.q() & !entry.enters;
+        let ends = ends.named_doc("line_ends", "no edge is left on it, none enters");
+        let words = inserts.count.q();
+        let starts = (ends & words.any()).named("next_line_starts");
+        let b = line.read(m, tables, &inserts, advance, ends);
+
+        m.comment("Stage C: the word with its record.");
+        let head_or_entry = Word::choose(entry.enters, entry.word, inserts.head.q());
+        let index = b_valid.q().mux(b.index, head_or_entry.index).named("next_index");
+        let column = b_valid.q().mux(b.key, inserts.head.q().key);
+        let place = tables.at(!load.bank, index);
+        let steps = tables.parts_of_steps(tables.steps.read(advance, place));
+        let record = tables.rests.read(advance, place);
+        let lines_left = record.trunc(tables.line + 1).named("lines_left");
+        let rest = record.slice(record.width() - 1, tables.line + 1).named_doc("rest", "R - f, signed");
+        let c = Word {
+            key: m.reg("c_column", tables.column).when(advance, column).q(),
+            index: m.reg("c_index", tables.index).when(advance, index).q(),
+        };
+        c_valid.when(advance, b_valid.q() | entry.enters | starts);
+        entering.when(advance, !b_valid.q() & entry.enters);
+
+        m.comment("Each second column closes a pair.");
+        let walked = (advance & leaving).named("walked");
+        let left = m.reg("left", tables.column).doc("first column of the pair").when(walked, c.key).q();
+        half.when(walked, !half.q()).when(ends, 0);
+        let closes = (advance & pairs).named("pair_closed");
+        pair_waits.when(pair_leaves, 0).when(closes, 1);
+        let register = |name: &str, value: Signal<'m>| m.reg(name, value.width()).when(closes, value).q();
+        let pair = Pair {
+            waits: pair_waits.q(),
+            line: register("pair_line", y.q()),
+            left: register("pair_left", thin.map_or(left, |thin| thin.mux(c.key, left))),
+            right: register("pair_right", c.key),
+            thin,
+        };
+
+        m.comment("Stage D: the edge on the next line, and its record written back.");
+        let leaves = (!entering.q() & lines_left.eq(1)).named_doc("leaves", "line y is its last one");
+        let stepped = (c.key + steps["q"] + rest.msb().zext(tables.column)).named("stepped");
+        let edge = Word { key: entering.q().mux(steps["c"], stepped), index: c.index };
+        let next = Rest { name: "rest", rest, f: steps["f"], modulus: steps.get("m") }.next(m);
+        let next = m.reg("d_rest", next.width()).doc("R - f, signed").when(advance, next).q();
+        let lines = m.reg("d_lines_left", lines_left.width()).when(advance, lines_left - 1).q();
+        let writes = m.reg("writes", 1).doc("the record of D is written").reset(0);
+        let writes = writes.set(advance & leaving & !leaves).q();
+        let stores = (load.stores | writes).named("rests_written");
+        let place = writes.mux(tables.at(!load.bank, inserts.edge.q().index), load.place);
+        tables.rests.write(stores, place, writes.mux(m.cat(&[next, lines]), load.rest));
+        let valid = c_valid.q() & !leaves;
+        inserts.update(&Comes { list: !line.list.q(), advance, valid, edge, line_ends: ends });
+
+        m.comment("The next line.");
+        let last = (ends & !words.any() & !entry.some).named("polygon_ends");
+        run.when(last, 0).when(load.begins, 1);
+        let before = (prim["start_y"].zext(tables.line) - 1).named("line_before");
+        y.when(ends, y.q() + 1).when(!run.q(), before);
+        line.list.when(ends, !line.list.q());
+        Pass { run: run.q(), writes, pair }
+    }
+}
+
+impl<'m> Line<'m> {
+    fn new(m: &'m Module, tables: &Tables<'m>) -> Line<'m> {
+        Line {
+            run: m.reg("run", 1).doc("lines are passed").reset(0),
+            y: m.reg("y", tables.line).doc("the line"),
+            list: m.reg("list", 1).doc("the active list that is read: that of the line").reset(0),
+            half: m.reg("half", 1).doc("the first column of a pair is there").reset(0),
+            b_valid: m.reg("b_valid", 1).reset(0),
+            c_valid: m.reg("c_valid", 1).reset(0),
+            entering: m.reg("entering", 1).doc("the edge of C begins on the next line"),
+        }
+    }
+
+    /// The word of stage B: those of the list behind its first, in turn.
+    fn read(
+        &self,
+        m: &'m Module,
+        tables: &Tables<'m>,
+        inserts: &Inserts<'_, 'm>,
+        advance: Signal<'m>,
+        ends: Signal<'m>,
+    ) -> Word<'m> {
+        m.comment("Stage B: the next word of the list. Its first is kept in a register, to begin with on the next line.");
+        let words = inserts.count.q();
+        let unread = m.reg("unread", tables.index + 1).doc("words of the list not read yet").reset(0);
+        let next = m.reg("next_word", tables.index).doc("place of the next word");
+        let some = unread.q().any().named("some_unread");
+        let several = words.gt(1).named("several");
+        let reads = (advance & some).named("reads");
+        unread.when(reads, unread.q() - 1).when(ends, several.mux(words - 2, 0));
+        next.when(reads, next.q() + 1).when(ends, 2);
+        // Where none is left the second of the next line's is read, for the clock in which the line ends.
+        let list = some.mux(self.list.q(), !self.list.q());
+        let place = some.mux(next.q(), 1);
+        let word = tables.lists.read(advance, tables.at(list, place));
+        self.b_valid.when(advance, some | (ends & several));
+        tables.word(word)
+    }
+}
+
+/// The next edge of the order list.
+struct Entry<'m> {
+    /// There is one.
+    some: Signal<'m>,
+    /// It begins on the next line.
+    enters: Signal<'m>,
+    word: Word<'m>,
+}
+
+impl<'m> Entry<'m> {
+    fn new(
+        m: &'m Module,
+        tables: &Tables<'m>,
+        load: &Load<'m>,
+        line: &Line<'m>,
+        advance: Signal<'m>,
+    ) -> Entry<'m> {
+        m.comment("The next edge of the order list; while no polygon is walked, the first of the one that is loaded.");
+        let Line { run, y, b_valid, .. } = *line;
+        let waiting = m.reg("waiting", tables.index + 1).doc("edges that have not entered");
+        let behind = m.reg("order_next", tables.index).doc("place behind that of the next edge");
+        let word = m.wire("order_word", tables.line + tables.index);
+        let first = tables.word(word.q());
+        let some = waiting.q().any().named("some_waits");
+        let on_next = first.key.eq(y.q() + 1).named("begins_on_next");
+        let enters = (run.q() & !b_valid.q() & some & on_next).named("enters");
+        let taken = (advance & enters).named("entered");
+        waiting.when(taken, waiting.q() - 1).when(load.begins, load.edges);
+        behind.when(taken, behind.q() + 1).when(load.begins, 1);
+        let place = behind.q() & run.q().sext(tables.index);
+        let place = tables.at(load.bank ^ run.q(), place);
+        word.drive(tables.order.read(!run.q() | taken, place));
+        Entry { some, enters, word: first }
+    }
+}
