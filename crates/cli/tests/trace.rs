@@ -184,9 +184,9 @@ fn transitions_are_those_of_the_waveform() {
     for settings in [
         &[][..],
         &["interpolator.adders=1"],
-        &["blend.kind=constant"],
+        &["blend.kind=constant", "memory.color_latency=2"],
         &["setup.kind=sequenced", "setup.lanes=1"],
-        &["memory.read_latency=4"],
+        &["memory.latency=4"],
     ] {
         let (saif, report) = traced("saif", settings);
         let report: serde_json::Value = serde_json::from_str(&report).expect("JSON");

@@ -4,7 +4,7 @@
 use std::io::Cursor;
 use std::sync::Arc;
 
-use edgewalk_netlist::{FstTrace, Labels, Module, Netlist, SaifTrace, Simulator, VcdTrace};
+use edgewalk_netlist::{FstTrace, Labels, Module, Netlist, Simulator, Transitions, VcdTrace};
 
 /// Two counters of different width, one inside an instance inside an instance, each with a ROM that follows it.
 fn counters() -> Arc<Netlist> {
@@ -143,9 +143,9 @@ fn saif_net(text: &str, name: &str) -> [u64; 3] {
 #[test]
 fn saif_counts_what_the_simulator_said() {
     let mut file = Vec::new();
-    let mut trace = SaifTrace::new(&mut file, &Simulator::new(&counters()), "top");
+    let mut trace = Transitions::new(&Simulator::new(&counters()), "top");
     let values = run(|sim| trace.sample(sim));
-    let units = trace.finish().unwrap();
+    trace.write_saif(&mut file).unwrap();
     let text = String::from_utf8(file).unwrap();
     assert!(text.contains("(DURATION 400)\n"), "{text}");
     assert_eq!(saif_net(&text, "clk"), [200, 200, 79]);
@@ -159,10 +159,15 @@ fn saif_counts_what_the_simulator_said() {
                 if column == 3 { text.split_once("(INSTANCE u_small").expect("the scope").1 } else { &text };
             let name = if bits == 1 { name.to_owned() } else { format!("{name}\\[{bit}\\]") };
             assert_eq!(saif_net(scope, &name), [400 - high, high, changes], "{name}");
+            let path =
+                if column == 3 { format!("u_middle.u_small.{}", name.replace('\\', "")) } else { name };
+            let counted = trace.bits()[&path];
+            assert_eq!((counted.transitions, counted.high), (changes, high / 10), "{path}");
             compared += 1;
         }
     }
     assert_eq!(compared, 7);
+    let units = trace.units();
     let names: Vec<&str> = units.iter().map(|unit| unit.unit.as_str()).collect();
     assert_eq!(names, ["", "u_large", "u_middle"]);
 }

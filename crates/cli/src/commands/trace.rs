@@ -9,7 +9,7 @@ use crate::verdict::Verdict;
 use anyhow::{Context, Result, anyhow};
 use edgewalk_lockstep::StallKind;
 use edgewalk_machine::Activity;
-use edgewalk_netlist::{FstTrace, Labels, SaifTrace, Simulator, UnitTransitions, VcdTrace};
+use edgewalk_netlist::{FstTrace, Labels, Simulator, Transitions, UnitTransitions, VcdTrace};
 use serde_json::json;
 use std::fs::File;
 use std::io::BufWriter;
@@ -49,7 +49,7 @@ const KINDS: [&str; 3] = ["vcd", "fst", "saif"];
 enum Wave {
     Vcd(VcdTrace<BufWriter<File>>),
     Fst(Box<FstTrace<BufWriter<File>>>),
-    Saif(SaifTrace<BufWriter<File>>),
+    Saif(Box<Transitions>, BufWriter<File>),
 }
 
 /// Runs the command.
@@ -81,7 +81,10 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
     match wave {
         Some(Wave::Vcd(w)) => w.finish().with_context(|| out.name(name))?,
         Some(Wave::Fst(w)) => w.finish().map_err(|e| anyhow!("{}: {e}", out.name(name)))?,
-        Some(Wave::Saif(w)) => units = Some(w.finish().with_context(|| out.name(name))?),
+        Some(Wave::Saif(counted, mut file)) => {
+            counted.write_saif(&mut file).with_context(|| out.name(name))?;
+            units = Some(counted.units());
+        }
         None => {}
     }
     out.publish(&[name])?;
@@ -143,14 +146,14 @@ fn sample(
         let labels = [Labels { signal: "activity", names: &names }];
         *wave = Some(match kind {
             "vcd" => Wave::Vcd(VcdTrace::new(file, sim, TOP, &labels)?),
-            "saif" => Wave::Saif(SaifTrace::new(file, sim, TOP)),
+            "saif" => Wave::Saif(Box::new(Transitions::new(sim, TOP)), file),
             _ => Wave::Fst(Box::new(FstTrace::new(file, sim, TOP, &labels)?)),
         });
     }
     match wave {
         Some(Wave::Vcd(w)) => w.sample(sim)?,
         Some(Wave::Fst(w)) => w.sample(sim)?,
-        Some(Wave::Saif(w)) => w.sample(sim),
+        Some(Wave::Saif(counted, _)) => counted.sample(sim),
         None => {}
     }
     Ok(())

@@ -7,10 +7,11 @@
 
 mod fst;
 mod saif;
+mod transitions;
 mod vcd;
 mod watch;
 
 pub use fst::FstTrace;
-pub use saif::{SaifTrace, UnitTransitions};
+pub use transitions::{BitTransitions, Transitions, UnitTransitions};
 pub use vcd::VcdTrace;
 pub use watch::Labels;
