@@ -10,6 +10,7 @@ mod kept;
 mod lights;
 mod memory;
 mod own_pass;
+mod polygon;
 mod sequenced;
 mod stalls;
 mod tables;

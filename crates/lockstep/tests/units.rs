@@ -32,8 +32,8 @@ fn alone(unit: Unit, seed: u64) {
         }
         possible.extend(unit.events(&plan).iter().map(|event| event.name));
         let mut case = Case::new(&plan, unit);
-        // SETUP and EDGE take long for a token.
-        let count = if ["setup", "edge"].contains(&name) { cycles / 40 } else { cycles };
+        // SETUP, EDGE and POLY take long for a token.
+        let count = if ["setup", "edge", "poly"].contains(&name) { cycles / 40 } else { cycles };
         case.tokens = random_tokens(&plan, unit, count as usize, &mut rng);
         if case.tokens.is_empty() {
             continue; // a machine on whose screen no triangle lies

@@ -3,6 +3,7 @@
 
 use crate::common::fail::checked_compiled;
 use crate::common::machines::random_machine;
+use crate::common::polygons::primitives;
 use crate::common::triangles::{after_it, one_pixel, random_primitive};
 use edgewalk_lockstep::{Case, Checked, Interface, Triangles, Unit};
 use edgewalk_machine::{Blend, BlendKind, Fill, Hazard, Kind, Machine, Plan, units};
@@ -159,8 +160,8 @@ fn compared(machines: &[Plan]) -> Checked {
             let mut rng = Pcg64Mcg::seed_from_u64(100 + i as u64);
             let port = Triangles::new(plan);
             let mut case = random_case(plan, &mut rng);
-            case.tokens =
-                (0..*share).map(|k| port.pack(&random_primitive(plan, &mut rng), k as u32)).collect();
+            let drawn = primitives(plan, *share as usize, &mut rng);
+            case.tokens = (0..).zip(&drawn).map(|(k, triangle)| port.pack(triangle, k)).collect();
             all.merge(&checked_compiled(&case));
         }
         all

@@ -56,7 +56,6 @@ fn draw(rng: &mut Pcg64Mcg) -> Machine {
         machine.shade.fraction = machine.shade.fraction.min(32);
         machine.shade.linear_fraction = machine.shade.linear_fraction.min(39);
     }
-    machine.polygon.edges = 0;
     // What would make nearly all of them clash.
     machine.guard_bits =
         if rng.random_bool(0.1) { rng.random_range(8..=14) } else { rng.random_range(2..=6) };
@@ -66,6 +65,9 @@ fn draw(rng: &mut Pcg64Mcg) -> Machine {
     }
     if machine.fill == Fill::Textbook {
         machine.subpixel_bits = 0;
+    }
+    if machine.fill == Fill::Textbook || machine.setup_kind == SetupKind::Sequenced || rng.random() {
+        machine.polygon.edges = 0; // EDGE
     }
     if machine.fill == Fill::Textbook || machine.subpixel_bits == 0 || machine.shade.is_there() {
         machine.polygon.lines = Lines::No; // a line has no half pixel there, or nobody who walks up

@@ -4,4 +4,5 @@
 pub mod fail;
 pub mod machines;
 pub mod tokens;
+pub mod polygons;
 pub mod triangles;

@@ -1,6 +1,7 @@
 //! Tokens for a unit alone: such as the rest of the machine would rarely give it.
 
-use super::triangles::{random_primitive, sides};
+use super::polygons::primitives;
+use super::triangles::sides;
 use edgewalk_lockstep::{Direction, Interface, Port, Rig, Setting, Token, Triangles, Unit, model};
 use edgewalk_machine::{Fill, Plan};
 use edgewalk_model::DrawState;
@@ -12,8 +13,8 @@ use rand_pcg::Pcg64Mcg;
 pub fn random_tokens(plan: &Plan, unit: Unit, count: usize, rng: &mut Pcg64Mcg) -> Vec<Token> {
     match unit.name() {
         "machine" | "setup" => triangles(plan, count, rng),
-        // What EDGE takes has to fit together: SETUP makes it.
-        "edge" => prims(plan, count, rng),
+        // What EDGE or POLY takes has to fit together: SETUP makes it.
+        "edge" | "poly" => prims(plan, count, rng),
         _ => {
             let interface = Interface::new(plan, unit);
             let fields = &interface.links[0].fields;
@@ -33,7 +34,7 @@ pub fn random_tokens(plan: &Plan, unit: Unit, count: usize, rng: &mut Pcg64Mcg) 
 
 fn triangles(plan: &Plan, count: usize, rng: &mut Pcg64Mcg) -> Vec<Token> {
     let port = Triangles::new(plan);
-    (0..count).map(|_| port.pack(&random_primitive(plan, rng), rng.random())).collect()
+    primitives(plan, count, rng).iter().map(|triangle| port.pack(triangle, rng.random())).collect()
 }
 
 /// The prims of random triangles, those that are not culled.
