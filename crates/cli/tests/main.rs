@@ -32,6 +32,7 @@ mod output;
 mod own_pass;
 mod panes;
 mod pictures;
+mod polygons;
 mod precision;
 mod presets;
 mod progress;

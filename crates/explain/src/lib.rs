@@ -19,6 +19,7 @@ use additions::{Walk, walk};
 use anyhow::Result;
 use dithered::{Dithered, dithered};
 use edges::{OnLine, on_line};
+use edgewalk_golden::polygon::{EdgeTable, Grid, fragments as polygon_fragments};
 use edgewalk_golden::{Drawing, Order, ShadowMaps, fragments, line_fragments};
 use edgewalk_host::draw::{Pixel, bands, draw_frame};
 use edgewalk_host::extra;
@@ -147,7 +148,12 @@ pub fn explain(input: &Input, (x, y): (u32, u32)) -> Result<Explanation> {
         _ => (Vec::new(), None),
     };
     let walked = match seen {
-        Some(triangle) if machine.fill == Fill::Exact && machine.edge_kind == EdgeKind::Exact => {
+        // What is walked is EDGE's way to the pixel.
+        Some(triangle)
+            if machine.fill == Fill::Exact
+                && machine.edge_kind == EdgeKind::Exact
+                && !machine.polygon.is_there() =>
+        {
             let state = state_of(frame, id as usize);
             walk(machine, &port_triangle(id as usize, triangle, frame, &state, machine)?, x, y)
         }
@@ -244,8 +250,16 @@ fn over(frame: &Frame, machine: &Plan, pixel: (u32, u32)) -> Vec<Over> {
                     list.push(Over { id, z: fragment.z(), rgb: fragment.rgb(), extra });
                 }
             }),
-            // The frame that is explained has triangles in their place.
-            Primitive::Polygon(_) => {}
+            // With POLY; elsewhere the frame that is explained has triangles in its place.
+            Primitive::Polygon(polygon) => {
+                let table = EdgeTable::new(polygon, frame.mode, Grid::subpixels(bits));
+                polygon_fragments(&table, screen, |fragment| {
+                    if (fragment.x, fragment.y) == pixel {
+                        let extra = own(machine, |channel| fragment.extra(channel));
+                        list.push(Over { id, z: fragment.z(), rgb: fragment.rgb(), extra });
+                    }
+                });
+            }
         }
     }
     list

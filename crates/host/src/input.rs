@@ -2,6 +2,7 @@
 
 use crate::extra;
 use crate::needs::{self, Need};
+use crate::polygon::{is_for_poly, of_pieces, pieces};
 use crate::port::{guard_band, sent};
 use anyhow::{Context as _, Result, anyhow};
 use edgewalk_golden::Shading;
@@ -158,11 +159,17 @@ pub fn fitting(name: &str, frame: Frame, machine: &Plan) -> Result<Frame> {
     Ok(frame)
 }
 
-/// The frame with its polygons as triangles, all in the machine's guard band.
+/// The frame with its polygons as triangles, all in the machine's guard band; on a machine with POLY polygons stay whose values a
+/// plane holds.
 ///
 /// # Errors
 /// A polygon that cannot be cut into triangles.
 pub fn in_triangles(frame: Frame, machine: &Plan) -> Result<Frame> {
+    if is_for_poly(&frame, machine) {
+        let mut host = frame.host;
+        let pieces = pieces(&frame, machine, &mut host)?;
+        return Ok(of_pieces(frame, pieces, host));
+    }
     let (Triangulated { triangles, ids }, host) = sent(&frame, machine)?;
     // So many triangles are made of the primitives before this place; lines stay what they are.
     let made = |place: usize| ids.iter().take_while(|id| (**id as usize) < place).count();

@@ -10,6 +10,7 @@ pub mod raster;
 pub mod light;
 pub mod shade;
 pub mod needs;
+pub mod polygon;
 pub mod port;
 pub mod input;
 pub mod lights;

@@ -233,7 +233,7 @@ fn sent(shadow: &Shadow, machine: &Plan, second: &Plan) -> Result<Sent> {
             let vertex = vertex.with_context(|| format!("shadow: triangle {number} of the map"))?;
             *slot = if own { own_vertex(&vertex, machine) } else { vertex };
         }
-        triangles.push(port);
+        triangles.push(if own { machine.windowed(port) } else { port });
     }
     let (transmits, opaque) = (machine.shadow.transmits(), shadow.triangles.len());
     let hides = DrawState {

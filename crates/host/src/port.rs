@@ -2,21 +2,24 @@
 
 use crate::light::{self, Map};
 use crate::needs;
+use crate::polygon::{self, Piece};
 use crate::raster::{Cycles, LightPass, Raster};
 use crate::shade::{Feed, feed, shading_for};
 use anyhow::{Context as _, Result, anyhow};
 use edgewalk_machine::{Plan, PortVertex};
 use edgewalk_model::{DrawState, Pass, Shading};
 use edgewalk_scene::{
-    Blending, CrossingEdges, DepthFunc, Frame, Host, Line, ShadeMode, State, Triangle, Triangulated, fits,
+    Blending, CrossingEdges, DepthFunc, Frame, Host, Line, Polygon, ShadeMode, State, Triangle, Triangulated,
+    fits,
 };
 use std::borrow::Cow;
 
 /// A frame as the machine's port takes it.
 pub struct PortFrame {
-    /// Triangles and lines in drawing order.
+    /// Triangles, lines and parts of polygons in drawing order, each a token.
     pub triangles: Vec<[PortVertex; 3]>,
-    /// For each of them the place of what it is a part of among the frame's triangles, polygons and lines.
+    /// For each triangle, line and whole polygon or band of one the place of what it is a part of among the frame's triangles,
+    /// polygons and lines.
     pub ids: Vec<i32>,
     /// The rules, and how many triangles are drawn by each, in order; at least one.
     pub passes: Vec<Pass>,
@@ -160,17 +163,41 @@ pub fn to_port(frame: &Frame, machine: &Plan) -> Result<PortFrame> {
             ));
         }
     }
-    let (Triangulated { triangles, ids }, host) = sent(frame, machine)?;
-    let (mut port, mut passes) = (Vec::with_capacity(triangles.len()), Vec::new());
-    let mut parts = parts(&triangles, &ids, frame).into_iter().peekable();
-    let mut ids = Vec::with_capacity(triangles.len() + frame.lines.len());
+    let (pieces, mut host) = (pieces(frame, machine)?, frame.host);
+    let of_pieces = pieces.as_ref().map(|(pieces, of_pieces)| {
+        host = *of_pieces;
+        pieces.iter().map(|(place, piece)| (*place, Part::of(piece))).collect::<Vec<_>>()
+    });
+    let in_triangles;
+    let parts = match of_pieces {
+        Some(parts) => parts,
+        None => {
+            in_triangles = sent(frame, machine)?;
+            host = in_triangles.1;
+            parts(&in_triangles.0.triangles, &in_triangles.0.ids, frame)
+        }
+    };
+    let (mut port, mut ids, mut passes) =
+        (Vec::with_capacity(parts.len()), Vec::with_capacity(parts.len()), Vec::new());
+    let mut parts = parts.into_iter().peekable();
     for pass in frame.passes() {
         let before = port.len();
         while let Some((id, part)) = parts.next_if(|(id, _)| *id < pass.primitives.end) {
-            port.push(match part {
-                Part::Triangle(triangle) => port_triangle(id, triangle, frame, &pass.state, machine)?,
-                Part::Line(line) => port_line(id, line, frame, &pass.state, machine)?,
-            });
+            match part {
+                Part::Triangle(triangle) => {
+                    port.push(port_triangle(id, triangle, frame, &pass.state, machine)?)
+                }
+                Part::Line(line) => port.push(port_line(id, line, frame, &pass.state, machine)?),
+                Part::Polygon(part) => {
+                    let contours = polygon::on_port(id, part, frame, &pass.state, machine)?;
+                    let bands = polygon::tokens(id, &contours, machine)?;
+                    ids.extend(bands.iter().skip(1).map(|_| id as i32));
+                    if bands.is_empty() {
+                        continue; // no edge has a line
+                    }
+                    port.extend(bands.concat());
+                }
+            }
             ids.push(id as i32); // a frame has fewer
         }
         passes.push(Pass {
@@ -185,10 +212,33 @@ pub fn to_port(frame: &Frame, machine: &Plan) -> Result<PortFrame> {
     Ok(PortFrame { triangles: port, ids, passes, lights, host, shade })
 }
 
+/// What a frame with polygons for POLY sends; none of another one.
+type Pieces = Option<(Vec<(usize, Piece)>, Host)>;
+
+fn pieces(frame: &Frame, machine: &Plan) -> Result<Pieces> {
+    if !polygon::is_for_poly(frame, machine) {
+        return Ok(None);
+    }
+    let mut host = frame.host;
+    let pieces = polygon::pieces(frame, machine, &mut host)?;
+    Ok(Some((pieces, host)))
+}
+
 /// What the port takes one after another.
 enum Part<'a> {
     Triangle(&'a Triangle),
+    Polygon(&'a Polygon),
     Line(&'a Line),
+}
+
+impl Part<'_> {
+    fn of(piece: &Piece) -> Part<'_> {
+        match piece {
+            Piece::Triangle(triangle) => Part::Triangle(triangle),
+            Piece::Polygon(polygon) => Part::Polygon(polygon),
+            Piece::Line(line) => Part::Line(line),
+        }
+    }
 }
 
 /// Triangles and lines in drawing order, with their places among the frame's primitives.
@@ -216,7 +266,7 @@ fn port_line(
         None => format!("line {index}"),
     };
     let [a, _, b] = port_vertices(index, &Triangle([a, a, b]), frame, state, machine, &name)?;
-    Ok(machine.line([a, b]))
+    Ok(machine.windowed(machine.line([a, b])))
 }
 
 /// The rules of a pass as a machine has them that meets the [needs](crate::needs) of the frame.
@@ -250,7 +300,7 @@ pub fn port_triangle(
         Some(corner) => format!("triangle {index}, vertex {corner}"),
         None => format!("triangle {index}"),
     };
-    port_vertices(index, triangle, frame, state, machine, &name)
+    Ok(machine.windowed(port_vertices(index, triangle, frame, state, machine, &name)?))
 }
 
 /// Snaps the vertices of the primitive at place `index` to the port; `name`: what errors call it, or one of its corners.

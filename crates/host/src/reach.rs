@@ -61,6 +61,12 @@ fn as_untimed(keys: &mut Machine) {
 /// # Errors
 /// Vertices of another machine.
 pub fn geometry(machine: &Plan, port: &PortFrame) -> Result<Passage> {
+    if machine.polygon.is_there() {
+        return Err(anyhow!(
+            "polygon.edges = {}: how far values are stepped is known of EDGE only; permitted: polygon.edges = 0",
+            machine.polygon.edges
+        ));
+    }
     let bare = Machine::default();
     let bare = machine.with(|keys| {
         (keys.shade, keys.shadow, keys.dither, keys.blend) =
@@ -88,12 +94,12 @@ pub fn walked(machine: &Plan, port: &PortFrame) -> Result<Option<Reach>> {
     Ok(Reach::of(machine, &port.ids, &geometry(machine, port)?))
 }
 
-/// How far the values of these triangles are stepped; none where the frame has several passes.
+/// How far the values of these triangles are stepped; none where the frame has several passes, or the machine POLY.
 ///
 /// # Errors
 /// Vertices of another machine.
 pub fn reach(machine: &Plan, port: &PortFrame) -> Result<Option<Reach>> {
-    if port.passes.len() != 1 {
+    if port.passes.len() != 1 || machine.polygon.is_there() {
         return Ok(None);
     }
     walked(machine, port)

@@ -138,6 +138,7 @@ impl Subject<'_> {
                 Some(report) => report.add(lines.drawn),
                 None => {
                     let mut first = Report::new(name, triangles, machine, lines.drawn, waits);
+                    first.drawn.polygons = frame.polygons.len() as u64;
                     first.drawn.lines = frame.lines.len() as u64;
                     report = Some(first);
                 }

@@ -57,7 +57,7 @@ pub struct Comparison {
     pub extra: Vec<ExtraError>,
 }
 
-/// Compares the pictures of `frame`, which has triangles only, with what is proved of the machine alone.
+/// Compares the pictures of `frame`, whose polygons POLY draws, with what is proved of the machine alone.
 #[must_use]
 pub fn compare(machine: &Plan, frame: &Frame, golden: &Raster, drawn: &Raster) -> Comparison {
     compare_for(machine, frame, golden, drawn, None)
@@ -104,7 +104,7 @@ fn compared(
 ) -> Comparison {
     let mut light = Lights::drawn(machine, frame, drawn, reach);
     if let Some(layers) = Layers::of(machine, frame, light.as_mut()) {
-        let mut tally = Tally::new(machine);
+        let mut tally = Tally::new(machine, frame);
         let mut counts = Counts::new(machine, drawn.cycles.as_ref());
         let found = blended(&mut counts, &mut tally, &layers, frame, (golden, drawn), light.as_mut());
         let maps = [tally.z.map(), tally.color.map()];
@@ -146,7 +146,7 @@ impl<'a> Bands<'a> {
         cycles: Option<&Cycles>,
         reach: Option<&'a Reach>,
     ) -> Self {
-        let (counts, tally) = (Counts::new(machine, cycles), Tally::new(machine));
+        let (counts, tally) = (Counts::new(machine, cycles), Tally::new(machine, frame));
         Bands { machine, frame, reach, counts, tally, light: None, allowed: None }
     }
 

@@ -1,11 +1,11 @@
 //! What SETUP does with the triangles of a picture: its clocks, and what becomes of each.
 
 use crate::occupancy::ratio;
-use edgewalk_machine::{Plan, PortVertex};
-use edgewalk_model::edge::Edge;
+use edgewalk_machine::{Plan, PortVertex, Role};
 use edgewalk_model::setup::Setup;
 use edgewalk_model::span::Span;
 use edgewalk_model::tokens::Prim;
+use edgewalk_model::walker::Walker;
 use edgewalk_model::{Culled, Events, for_channels, longest_setup};
 use serde::{Serialize, Serializer};
 use serde_json::{Map, json};
@@ -24,7 +24,7 @@ const FATES: [(&str, &str); 5] = [
 /// Sizes of triangles, and the least pixels of each; culled ones have 0.
 const SIZES: [(&str, u64); 5] = [("0", 0), ("1-3", 1), ("4-15", 4), ("16-63", 16), ("64+", 64)];
 
-/// Counts over triangles.
+/// Counts over triangles; a polygon counts as one, with the clocks of all its edges.
 #[derive(Clone, Debug)]
 pub struct SetupReport {
     /// How many took so many clocks, S1 + S2; without those that were culled.
@@ -82,12 +82,15 @@ impl SetupReport {
     }
 
     fn all<const C: usize>(&mut self, machine: &Plan, triangles: &[[PortVertex; 3]]) {
-        let mut setup = Setup::<C>::new(machine);
+        let (mut setup, mut walker, mut clocks) = (Setup::<C>::new(machine), Walker::new(machine), 0);
         for triangle in triangles {
             let mut met = Events::default();
-            let pixels = setup.run(triangle, &mut met).map(|prim| pixels(machine, &prim));
-            let clocks = setup.clocks().all();
-            setup.step(None, true, false, &mut met); // EDGE takes it
+            let pixels = setup.run(triangle, &mut met).map(|prim| pixels(machine, &mut walker, &prim));
+            clocks += setup.clocks().all();
+            setup.step(None, true, false, &mut met); // EDGE or POLY takes it
+            if !Role::of(triangle).ends() {
+                continue;
+            }
             let fate = match pixels {
                 None if met.setup.culled_lines > 0 => 0,
                 None if met.setup.culled_columns > 0 => 1,
@@ -96,6 +99,7 @@ impl SetupReport {
                 Some(_) => 4,
             };
             self.add(clocks, fate, pixels);
+            clocks = 0;
         }
     }
 
@@ -151,12 +155,22 @@ impl Serialize for SetupReport {
     }
 }
 
-/// Pixels on the screen of all spans of a triangle.
-fn pixels<const C: usize>(machine: &Plan, prim: &Prim<C>) -> u64 {
-    let (mut edge, mut spans, events) = (Edge::new(machine), Span::new(machine), &mut Events::default());
-    edge.step(Some(prim), false, true, events);
+/// Pixels on the screen of all spans of a triangle, or of a polygon that ends here.
+fn pixels<const C: usize>(machine: &Plan, walker: &mut Walker<C>, prim: &Prim<C>) -> u64 {
+    let (mut spans, events) = (Span::new(machine), &mut Events::default());
+    loop {
+        let taken = walker.prim_ready(Some(prim), false);
+        walker.step(Some(prim), false, false, false, events);
+        if taken {
+            break;
+        }
+    }
     let mut pixels = 0;
-    while let Some(line) = edge.line().copied() {
+    while walker.running() {
+        let Some(line) = walker.line().copied() else {
+            walker.step(None, false, false, false, events);
+            continue;
+        };
         spans.step(Some(&line), false, false, events);
         spans.step(None, false, false, events); // from its register into the queue
         if let Some(span) = spans.span() {
@@ -165,7 +179,7 @@ fn pixels<const C: usize>(machine: &Plan, prim: &Prim<C>) -> u64 {
             pixels += (end.min(i64::from(machine.width)) - first.max(0)).max(0) as u64;
             spans.step(None, true, false, events);
         }
-        edge.step(None, false, true, events);
+        walker.step(None, false, true, false, events);
     }
     pixels
 }

@@ -8,7 +8,7 @@ use crate::stalls::{StallKind, patterns};
 use crate::unit::Unit;
 use crate::values::{PortId, PortValues};
 use edgewalk_machine::{
-    Activity, DrawState, Events, ForeignVertex, Maps, Pass, Plan, PortVertex, Shading, Step,
+    Activity, DrawState, Events, ForeignVertex, Maps, Pass, Plan, PortVertex, Role, Shading, Step,
     first_of_picture, steps,
 };
 use edgewalk_model::tokens::output;
@@ -167,9 +167,13 @@ fn run<'a>(
 ) -> Result<Run<'a>, DrawError> {
     let interface = Interface::new(tagged, Unit::MACHINE);
     let (port, mut foreign) = (Triangles::new(tagged), None);
+    // The tag is what a picture calls the id: edges of a polygon have that of the token that ends it.
+    let mut id = 0;
     let mut tokens = triangles.into_iter().zip(0..).map_while(|(triangle, number): (_, u32)| {
         foreign = plan.accept(&triangle, number.into()).err();
-        foreign.is_none().then(|| port.pack(&triangle, number))
+        let tag = id;
+        id += u32::from(Role::of(&triangle).ends());
+        foreign.is_none().then(|| port.pack(&triangle, tag))
     });
     let mut picture = Picture::new(plan, &interface, plan.z.max(), first_of_picture(passes).clear);
     // In a machine that draws its map what the same ports reach then.

@@ -17,7 +17,8 @@ impl Plan {
     /// draw nothing. The plane is that of [`Plan::far_apart`].
     #[must_use]
     pub fn polygon(&self, contours: &[Contour], window: Window) -> Vec<[PortVertex; 3]> {
-        let mut contours: Vec<Contour> = contours.iter().filter(|contour| contour.len() > 2).cloned().collect();
+        let mut contours: Vec<Contour> =
+            contours.iter().filter(|contour| contour.len() > 2).cloned().collect();
         let all: Vec<PortVertex> = contours.iter().flatten().copied().collect();
         let Some(plane) = self.far_apart(&all) else { return Vec::new() };
         // A contour that can be turned so that its last token has a plane as good is the last one.
@@ -99,6 +100,26 @@ impl Plan {
         let Some(top) = vertices.iter().min_by_key(|vertex| vertex.y()) else { return Window::default() };
         let on = |at: i32, side: u32| self.first_pixel(at).clamp(0, side as i32 - 1) as u32;
         Window { x0: on(top.x(), self.width), y0: on(top.y(), self.height), ..Window::default() }
+    }
+}
+
+impl Plan {
+    /// A triangle or line with [`Plan::window_from`] its vertices; a flat line has its columns where others have lines. Without
+    /// POLY it stays as it is.
+    #[must_use]
+    pub fn windowed(&self, vertices: [PortVertex; 3]) -> [PortVertex; 3] {
+        if !self.polygon.is_there() {
+            return vertices;
+        }
+        let window = match Role::of(&vertices) {
+            Role::Line { flat: true } => {
+                let first =
+                    vertices.map(|vertex| self.first_pixel(vertex.y())).into_iter().min().unwrap_or(0);
+                Window { y0: first.clamp(0, self.width as i32 - 1) as u32, ..Window::default() }
+            }
+            _ => self.window_from(&vertices),
+        };
+        self.with_window(vertices, window)
     }
 }
 

@@ -54,11 +54,21 @@ fn off_screen(Triangle(vertices): &Triangle, width: u32, height: u32) -> bool {
     beside(|v| v.x, width) || beside(|v| v.y, height)
 }
 
-/// The part in the band, a fan; cut at one side after the other (Sutherland and Hodgman).
+/// The part in the band, a fan.
 fn cut(triangle: &[Vertex; 3], limit: f64) -> Vec<Triangle> {
+    match &contour_in_band(triangle, limit)[..] {
+        [first, rest @ ..] => rest.windows(2).map(|pair| Triangle([*first, pair[0], pair[1]])).collect(),
+        [] => Vec::new(),
+    }
+}
+
+/// The part of a contour in the band that ends at ±`limit` pixels, cut at one side after the other (Sutherland and
+/// Hodgman). Of a contour that is not convex it may run back along the border: by the odd-even rule that draws nothing.
+#[must_use]
+pub fn contour_in_band(contour: &[Vertex], limit: f64) -> Vec<Vertex> {
     let sides: [(fn(&mut Vertex) -> &mut f64, f64); 4] =
         [(|v| &mut v.x, limit), (|v| &mut v.x, -limit), (|v| &mut v.y, limit), (|v| &mut v.y, -limit)];
-    let mut polygon = triangle.to_vec();
+    let mut polygon = contour.to_vec();
     for (coordinate, side) in sides {
         let inside = |v: &Vertex| *coordinate(&mut { *v }) * side.signum() <= limit;
         let mut kept = Vec::with_capacity(polygon.len() + 1);
@@ -77,10 +87,7 @@ fn cut(triangle: &[Vertex; 3], limit: f64) -> Vec<Triangle> {
         }
         polygon = kept;
     }
-    match &polygon[..] {
-        [first, rest @ ..] => rest.windows(2).map(|pair| Triangle([*first, pair[0], pair[1]])).collect(),
-        [] => Vec::new(),
-    }
+    polygon
 }
 
 /// The point at t on the way from one vertex to the other, all its values linear; never outside of what the

@@ -30,7 +30,7 @@ mod frame;
 mod pass;
 mod band;
 
-pub use band::fits;
+pub use band::{contour_in_band, fits};
 pub use camera::Camera;
 pub use error::InputError;
 pub use frame::{Frame, Line, MAX_CONTOUR, MAX_COORDINATE, MAX_LIGHTS, MAX_SIDE, Pane, Polygon, Shadow};

@@ -91,6 +91,39 @@ fn every_suite_of_lines() {
     assert!(compared.iter().all(|compared| *compared > 100_000), "{compared:?}");
 }
 
+/// Polygons in each unit; every event of POLY is met by the directed suites.
+#[test]
+fn every_suite_of_polygons() {
+    let machines = common::polygonal();
+    let all: Vec<(u64, edgewalk_machine::Events)> = common::two_at_a_time(&machines, |i, (name, machine)| {
+        let (mut compared, mut natives) = (0, common::Natives::new(machine));
+        let mut met = edgewalk_machine::Events::default();
+        for (j, suite) in ["polygon", "polygon_corners"].into_iter().enumerate() {
+            let suite = Suite::named(machine, suite, 3, 30).expect("listed");
+            for light_pass in [false, true].into_iter().take(1 + usize::from(machine.shadow.draws_map())) {
+                let runs = Runs::new(machine, &suite, DrawState { light_pass, ..suite.state });
+                for unit in Unit::all(machine) {
+                    let trace = runs.capture(unit, StallKind::ALL[(i + j) % 3]);
+                    let agreement =
+                        natives.lockstep(&trace).unwrap_or_else(|error| panic!("{name}: {error}"));
+                    assert_eq!(agreement.compared, trace.port_values());
+                    compared += agreement.compared;
+                    met.merge(&trace.events);
+                }
+            }
+        }
+        (compared, met)
+    });
+    let mut met = edgewalk_machine::Events::default();
+    all.iter().for_each(|(_, events)| met.merge(events));
+    for (event, count) in met.counts() {
+        let of_poly = ["polygon_", "load_", "window_"].iter().any(|name| event.starts_with(name));
+        assert!(!of_poly || count > 0, "{event} is not met");
+    }
+    println!("{} machines, {} port values compared", all.len(), all.iter().map(|(n, _)| n).sum::<u64>());
+    assert!(all.iter().all(|(compared, _)| *compared > 100_000));
+}
+
 /// SHADOW, its directed suites and those of hazards; the whole machine, whose lock-step takes the longest, once each.
 #[test]
 fn every_suite_of_shadow() {

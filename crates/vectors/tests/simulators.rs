@@ -158,6 +158,28 @@ fn machines_with_blend(machines: &[(&str, Plan)], simulators: impl Fn(usize) -> 
     assert!(done.iter().all(|checked| *checked > 4000), "{done:?}");
 }
 
+/// Polygons in Icarus, on one machine in Verilator too; SETUP, POLY and SPAN alone.
+#[test]
+fn machines_with_polygons_replay_and_are_clean() {
+    let done = common::two_at_a_time(&common::polygonal(), |i, (name, machine)| {
+        let suite = joined(machine, &["polygon", "polygon_corners"]);
+        let mut checked = 0;
+        for unit in [Unit::MACHINE, common::SETUP, common::POLY, common::SPAN] {
+            let files = files(machine, unit, &suite, 7, StallKind::ALL[i % 3]);
+            let simulators = &Simulator::ALL[..1 + usize::from(unit == Unit::MACHINE && i == 1)];
+            checked += simulators.iter().map(|simulator| passes(*simulator, &files)).sum::<u64>();
+            if unit == Unit::MACHINE {
+                let place = tempfile::tempdir().expect("a directory");
+                write(&files, &place.path().join("vectors"));
+                lint(&place.path().join("vectors"), LIMIT).unwrap_or_else(|error| panic!("{name}: {error}"));
+            }
+        }
+        println!("{name:50} {checked} checked, lint clean");
+        checked
+    });
+    assert!(done.len() == 3 && done.iter().all(|checked| *checked > 1500), "{done:?}");
+}
+
 /// Lines in Icarus, on one machine in Verilator too; SETUP, EDGE and SPAN alone.
 #[test]
 fn machines_with_lines_replay_and_are_clean() {

@@ -43,7 +43,8 @@ impl Place {
         if area == 0 || k1 <= k0 || j2 <= j0 {
             return None;
         }
-        let leftward = area < 0;
+        // POLY's spans all run to the right.
+        let leftward = area < 0 && !machine.polygon.is_there();
         // Where the major edge, from the top to the bottom, crosses the first line.
         let across = top[0] * second[1] + (j0 * pixel - top[1]) * second[0];
         let column = up(across, second[1] * pixel);

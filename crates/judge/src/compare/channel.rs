@@ -3,8 +3,10 @@
 use super::order::Over;
 use edgewalk_golden::dither::Dither;
 use edgewalk_host::extra::{self, Label, OwnChannel};
+use edgewalk_host::polygon::defects;
 use edgewalk_host::raster::Raster;
 use edgewalk_machine::{Channel, ErrorBudget, NoBound, Plan};
+use edgewalk_scene::Frame;
 use serde::Serialize;
 use serde::ser::{SerializeMap as _, Serializer};
 
@@ -33,6 +35,8 @@ pub struct Errors {
     unit: f64,
     /// Of a colour, LSB: the step by which DITHER rounds it; else 0.
     pub step: f64,
+    /// Of the frame's polygons, LSB: how far their planes lie from values along their edges.
+    defect: f64,
     budget: Result<ErrorBudget, NoBound>,
     largest: f64,
     sums: Sums,
@@ -62,8 +66,8 @@ struct Pattern {
 
 impl Pattern {
     /// None without DITHER, or where no bound is proved.
-    fn of(machine: &Plan) -> Option<Pattern> {
-        let bound = machine.proved_budget(&machine.channels()[1]).ok()?.after_rounding().to_f64();
+    fn of(machine: &Plan, defect: f64) -> Option<Pattern> {
+        let bound = machine.proved_budget(&machine.channels()[1]).ok()?.after_rounding().to_f64() + defect;
         let dither = Dither { bits: machine.color.bits, left: machine.stored_color().bits };
         machine.dither.rounds().then_some(Pattern { dither, width: machine.width as usize, bound })
     }
@@ -82,26 +86,27 @@ pub struct Spread {
 
 impl Tally {
     /// Nothing found yet.
-    pub fn new(machine: &Plan) -> Self {
+    pub fn new(machine: &Plan, frame: &Frame) -> Self {
+        let defects = defects(frame, machine);
         let screen = machine.width as usize * machine.height as usize;
-        let errors = |channel: Channel, unit: f64| Errors {
-            channel,
+        let errors = |place: usize, unit: f64| Errors {
+            channel: machine.channels()[place],
             unit,
-            step: if channel.name == "r" { machine.dither_step() } else { 0.0 },
-            budget: machine.proved_budget(&channel),
+            defect: defects[place],
+            step: if place == 1 { machine.dither_step() } else { 0.0 },
+            budget: machine.proved_budget(&machine.channels()[place]),
             largest: 0.0,
             sums: Sums::new(3 * screen),
             map: Vec::new(),
         };
-        let of_unit =
-            |place: usize| errors(machine.channels()[place], machine.channels()[place].max() as f64);
+        let of_unit = |place: usize| errors(place, machine.channels()[place].max() as f64);
         Tally {
             z: of_unit(0),
             color: of_unit(1),
-            extra: extra::channels(machine).iter().map(|channel| errors(*channel, 1.0)).collect(),
+            extra: (0..extra::channels(machine).len()).map(|own| errors(extra::BEFORE + own, 1.0)).collect(),
             wrapped: 0,
             most: machine.stored_color().max() as f64,
-            pattern: Pattern::of(machine),
+            pattern: Pattern::of(machine, defects[1]),
             off_pattern: 0,
         }
     }
@@ -184,14 +189,14 @@ impl Errors {
     }
 
     /// What was found, with the proved largest error of the output: vertex rounding, all additions, output rounding (bounds 2, 4), and
-    /// the step of DITHER (bound 18).
+    /// the step of DITHER (bound 18), and how far polygons are from planes.
     pub fn found(self) -> ChannelError {
         ChannelError {
             bits: self.channel.bits,
-            unproved: 1.0 + self.step,
+            unproved: 1.0 + self.step + self.defect,
             error: self.largest,
             spread: self.sums.spread(),
-            bound: self.budget.map(|budget| budget.after_rounding().to_f64() + self.step).ok(),
+            bound: self.budget.map(|budget| budget.after_rounding().to_f64() + self.step + self.defect).ok(),
             no_bound: self.budget.err().map(|why| why.to_string()),
             bound_for_input: None,
             map: Vec::new(),

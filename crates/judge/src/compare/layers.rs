@@ -6,6 +6,7 @@
 use super::lit::{Lights, Seen};
 use super::order::apart;
 use edgewalk_golden::Step;
+use edgewalk_host::polygon::defects;
 use edgewalk_host::raster::golden_drawing;
 use edgewalk_machine::Plan;
 use edgewalk_numerics::blend_error_of_golden;
@@ -69,7 +70,7 @@ impl Layers {
             loose: vec![false; pixels],
         };
         let width = frame.width as usize;
-        let (apart, errors) = (apart(machine, None), Errors::of(machine));
+        let (apart, errors) = (apart(machine, frame, None), Errors::of(machine, frame));
         golden_drawing(frame, machine).watched(0..frame.height, |step| match step {
             Step::Tested { at, id, stored, gap } => {
                 let sure = apart.map(|apart| if stored < 0 { apart.cleared } else { apart.triangles });
@@ -110,12 +111,13 @@ pub struct Errors {
 }
 
 impl Errors {
-    /// Of this machine.
-    pub fn of(machine: &Plan) -> Errors {
+    /// Of this machine, and of the polygons of the frame.
+    pub fn of(machine: &Plan, frame: &Frame) -> Errors {
+        let defects = defects(frame, machine);
         let error = |place: usize| {
             let budget = machine.proved_budget(&machine.channels()[place]);
             // Where none is proved an LSB is allowed, as elsewhere.
-            budget.map_or(1.0, |budget| budget.after_rounding().to_f64())
+            budget.map_or(1.0, |budget| budget.after_rounding().to_f64()) + defects[place]
         };
         let one = f64::from(1u32 << machine.blend.kt_bits);
         let kt = machine.channel_place("kt");

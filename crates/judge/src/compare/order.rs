@@ -4,8 +4,10 @@
 //! output rounding, 0 for the cleared depth). Nearer ones may come out as less, equal or greater. Playing the depth test at
 //! a pixel through, with every outcome of every test that is open, gives all that the machine may leave there.
 
-use edgewalk_golden::{Fill, Fragment, fragments, line_fragments};
+use edgewalk_golden::polygon::{self, EdgeTable, Grid};
+use edgewalk_golden::{Fill, Fragment, Weight, fragments, line_fragments};
 use edgewalk_host::extra;
+use edgewalk_host::polygon::defects;
 use edgewalk_host::raster::{Raster, golden_fill};
 use edgewalk_host::reach::Reach;
 use edgewalk_machine::Plan;
@@ -53,7 +55,7 @@ impl Over {
     }
 
     /// A fragment of the triangle with this id.
-    fn fragment<const N: usize>(machine: &Plan, fragment: &Fragment<N>, id: i32) -> Self {
+    fn fragment<const N: usize, W: Weight>(machine: &Plan, fragment: &Fragment<N, W>, id: i32) -> Self {
         let channels = extra::channels(machine);
         let own =
             |channel: usize| channels.get(channel).map_or(0.0, |of| fragment.extra(channel) * of.host_unit());
@@ -64,7 +66,7 @@ impl Over {
 impl<'a> Orders<'a> {
     /// Of these pixels.
     pub fn new(machine: &Plan, frame: &'a Frame, pixels: &[usize], reach: Option<&Reach>) -> Self {
-        let apart = apart(machine, reach);
+        let apart = apart(machine, frame, reach);
         let over = match (apart, golden_fill(machine)) {
             (Some(_), Fill::Exact { subpixel_bits }) => all_over(machine, frame, subpixel_bits, pixels),
             _ => BTreeMap::new(),
@@ -85,12 +87,16 @@ impl<'a> Orders<'a> {
 }
 
 /// Bound 7 for any two fragments of the machine, or of triangles that reach so far.
-pub fn apart(machine: &Plan, reach: Option<&Reach>) -> Option<Apart> {
+pub fn apart(machine: &Plan, frame: &Frame, reach: Option<&Reach>) -> Option<Apart> {
     let depth = &machine.channels()[0];
     let budget = reach.and_then(|reach| reach.budget(machine, depth));
     let error = budget.or_else(|| machine.proved_budget(depth).ok())?.before_rounding();
-    let lsb = |other| Some(surely_ordered_difference(error, other)?.to_f64() / machine.z.max() as f64);
-    Some(Apart { triangles: lsb(error)?, cleared: lsb(Dyadic::ZERO)? })
+    // Each of two polygons may be off its plane.
+    let defect = defects(frame, machine)[0];
+    let lsb = |other, defect: f64| {
+        Some((surely_ordered_difference(error, other)?.to_f64() + defect) / machine.z.max() as f64)
+    };
+    Some(Apart { triangles: lsb(error, 2.0 * defect)?, cleared: lsb(Dyadic::ZERO, defect)? })
 }
 
 /// What lies over these pixels, in drawing order.
@@ -119,8 +125,10 @@ pub fn all_over(
             Primitive::Line(line) => line_fragments(line, frame.mode, subpixel_bits, screen, |f| {
                 put(f.x, f.y, &|| Over::fragment(machine, f, id));
             }),
-            // The frame that is compared has triangles in their place.
-            Primitive::Polygon(_) => {}
+            Primitive::Polygon(polygon) => {
+                let table = EdgeTable::new(polygon, frame.mode, Grid::subpixels(subpixel_bits));
+                polygon::fragments(&table, screen, |f| put(f.x, f.y, &|| Over::fragment(machine, f, id)));
+            }
         }
     }
     over

@@ -1,10 +1,12 @@
 //! Polygons drawn at random, token by token, with a liking for corners.
 
 use super::triangles::{random_primitive, random_triangle, sides};
-use edgewalk_lockstep::Triangle;
 use edgewalk_machine::{Plan, PortVertex, Role, Sides, Window};
 use rand::Rng;
 use rand_pcg::Pcg64Mcg;
+
+/// A token at the port.
+pub type Triangle = [PortVertex; 3];
 
 /// So many tokens or a few more: triangles and lines, and where the port takes them polygons, each with its plane at the end.
 pub fn primitives(plan: &Plan, count: usize, rng: &mut Pcg64Mcg) -> Vec<Triangle> {

@@ -23,6 +23,7 @@ mod light;
 mod lines;
 mod own_map;
 mod pen;
+mod polygon;
 mod random;
 mod shade;
 mod sphere;
@@ -93,6 +94,8 @@ enum Kind {
     Light { shadow_on: bool },
     /// For machines whose port takes lines.
     Lines,
+    /// For machines with POLY.
+    Polygons(fn(&Plan) -> Vec<Case>),
     /// For machines that draw their map: in the light's pass or in the picture's.
     OwnMap { light_pass: bool },
     /// For DITHER: each place of its pattern.
@@ -122,6 +125,7 @@ impl Entry {
             Kind::Colors { .. } => machine.blend.is_there(),
             Kind::Light { .. } => machine.shadow.is_there(),
             Kind::Lines => machine.polygon.has_lines(),
+            Kind::Polygons(_) => machine.polygon.is_there(),
             Kind::OwnMap { .. } => machine.shadow.draws_map(),
             Kind::Dither => machine.dither.is_there(),
             Kind::Shade => machine.shade.is_there(),
@@ -131,7 +135,7 @@ impl Entry {
 }
 
 /// The suites that come with the program.
-pub const SUITES: [Entry; 22] = [
+pub const SUITES: [Entry; 24] = [
     shapes(
         "hazards",
         "pixels met again while they are in flight: one-pixel triangles on one address, knee lines drawn twice",
@@ -186,6 +190,16 @@ pub const SUITES: [Entry; 22] = [
         name: "lines",
         about: "lines in every direction, on centres and between them, over each side of the screen and beside it, in machines whose port takes lines",
         kind: Kind::Lines,
+    },
+    Entry {
+        name: "polygon",
+        about: "polygons: convex, concave, crossing, with holes and several contours, beyond the screen, in turn with triangles, in machines with POLY",
+        kind: Kind::Polygons(polygon::shapes),
+    },
+    Entry {
+        name: "polygon_corners",
+        about: "vertices on centres, edges on each other and beside the screen, gaps, windows, a full table and one too small, planes without area, in machines with POLY",
+        kind: Kind::Polygons(polygon::corners),
     },
     Entry {
         name: "own_map",
@@ -260,6 +274,7 @@ impl Suite {
                 ..plain
             },
             Kind::Lines => Suite { stalls: StallKind::Mixed, cases: lines::cases(machine), ..plain },
+            Kind::Polygons(cases) => Suite { stalls: StallKind::Mixed, cases: cases(machine), ..plain },
             Kind::OwnMap { light_pass } => Suite {
                 state: DrawState { light_pass, ..plain.state },
                 clear_z: light_pass.then_some((1 << machine.shadow.depth_bits) - 1),

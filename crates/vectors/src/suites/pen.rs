@@ -1,7 +1,7 @@
 //! Draws cases in pixels and in shares of full scale; what a machine cannot hold is moved to the nearest it can.
 
 use super::{Case, Triangle};
-use edgewalk_machine::{LIGHT_SPACE, Plan, PortVertex};
+use edgewalk_machine::{LIGHT_SPACE, Plan, PortVertex, Window};
 
 /// Red, green and blue of the three corners, so that every channel varies in both directions.
 const COLORS: [[f64; 3]; 3] = [[1.0, 0.1, 0.3], [0.2, 0.9, 0.0], [0.0, 0.4, 1.0]];
@@ -119,6 +119,25 @@ impl<'a> Pen<'a> {
             self.vertex(ends[i], [z[i], r, g, b])
         });
         self.machine.line([a, b])
+    }
+
+    /// A polygon whose corners have different colours, for a machine with POLY: all lines of the screen, or those of a window.
+    pub fn polygon(&self, contours: &[Vec<(f64, f64)>], window: Option<Window>) -> Vec<Triangle> {
+        let mut corners = 0;
+        let mut vertex = |at: &(f64, f64)| {
+            corners += 1;
+            let [r, g, b] = COLORS[corners % 3];
+            self.vertex(*at, [f64::from(corners as u32 % 5) / 5.0, r, g, b])
+        };
+        let contours: Vec<Vec<PortVertex>> =
+            contours.iter().map(|contour| contour.iter().map(&mut vertex).collect()).collect();
+        let window = window.unwrap_or_else(|| self.machine.window_from(&contours.concat()));
+        self.machine.polygon(&contours, window)
+    }
+
+    /// For which it draws.
+    pub fn machine(&self) -> &'a Plan {
+        self.machine
     }
 
     /// A triangle that in exact fill covers the pixel (column, line) alone, on any sub-pixel grid.

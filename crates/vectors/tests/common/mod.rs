@@ -98,6 +98,7 @@ fn checked(machine: Machine) -> Plan {
 pub const SETUP: Unit = Unit::of(&units::setup::SPEC);
 pub const EDGE: Unit = Unit::of(&units::edge::SPEC);
 pub const SPAN: Unit = Unit::of(&units::span::SPEC);
+pub const POLY: Unit = Unit::of(&units::poly::SPEC);
 pub const TERM: Unit = Unit::of(&units::term::SPEC);
 pub const PIXEL: Unit = Unit::of(&units::pixel::SPEC);
 pub const TEXEL: Unit = Unit::of(&units::texel::SPEC);
@@ -134,6 +135,19 @@ pub fn lined() -> Vec<(&'static str, Plan)> {
     [("wide", wide), ("high_slopes_tags", high), ("blend_own_map", own_map)]
         .map(|(name, machine)| (name, checked(machine)))
         .into()
+}
+
+/// The same machines with POLY in EDGE's place, but for the one that blends without lines.
+pub fn polygonal() -> Vec<(&'static str, Plan)> {
+    let with_poly = |(name, machine): (&'static str, Plan)| {
+        let mut machine = Machine::clone(&machine);
+        machine.polygon.edges = if name == "high_slopes_tags" { 16 } else { 8 };
+        if name == "blend_own_map" {
+            machine.polygon.lines = Lines::No;
+        }
+        (name, checked(machine))
+    };
+    lined().into_iter().map(with_poly).collect()
 }
 
 /// Twelve machines with their names: adders, segments, lanes, radices, word lengths, fills, edges, hazard policies, and in

@@ -1,0 +1,136 @@
+//! Polygons of triangle files, drawn by the machine's POLY.
+
+use crate::support::{edgewalk, ended, rendered_by_every_engine};
+use std::fmt::Write as _;
+
+/// In planes: convex, concave, crossing, with a hole; between triangles and over the sides of the screen.
+const FILE: &str = "size 48 36
+clear 0.1 0.1 0.2
+T  4 4 0.5 1 0 0 0   44 8 0.5 0 1 1 0   10 33 0.5 1 0 1 0
+P 5  10 2 0.4 1 0 0 0   30 6 0.4 1 0 0 0   36 20 0.4 1 0 0 0   20 30 0.4 1 0 0 0   6 18 0.4 1 0 0 0
+P 4  4 4 0.2 0.2 0.2 0.2 0   44 4 0.6 0.6 0.6 0.6 0   44 32 0.74 0.74 0.74 0.74 0   4 32 0.34 0.34 0.34 0.34 0
+P 4  -20 6 0.3 0 1 0 0   70 30 0.3 0 1 0 0   70 6 0.3 0 1 0 0   -20 30 0.3 0 1 0 0
+P 6  2 20 0.1 0 0 1 0   46 20 0.1 0 0 1 0   46 34 0.1 0 0 1 0   24 26 0.1 0 0 1 0   13 34 0.1 0 0 1 0   2 34 0.1 0 0 1 0
+H 3  8 22 0.1 0 0 1 0   16 22 0.1 0 0 1 0   12 27 0.1 0 0 1 0
+T  0 0 0.05 1 1 1 0   9 0 0.05 1 1 1 0   0 9 0.05 1 1 1 0
+";
+
+fn folder(file: &str) -> tempfile::TempDir {
+    let folder = tempfile::tempdir().expect("a folder");
+    std::fs::write(folder.path().join("a.tri"), file).expect("a file");
+    folder
+}
+
+fn report(folder: &tempfile::TempDir, more: &[&str]) -> serde_json::Value {
+    let arguments = [&["render", "a.tri", "--json"], more].concat();
+    let output = edgewalk(folder.path(), &arguments).output().expect("runs");
+    let error = String::from_utf8_lossy(&output.stderr).into_owned();
+    serde_json::from_slice(&output.stdout).unwrap_or_else(|_| panic!("{arguments:?}: {error}"))
+}
+
+#[test]
+fn polygons_in_planes_are_drawn_by_every_engine() {
+    let folder = folder(FILE);
+    for more in [&["--machine", "polygon"][..], &["--set", "polygon.edges=16", "--set", "polygon.lines=yes"]] {
+        for report in rendered_by_every_engine(folder.path(), &[&["a.tri"], more].concat()) {
+            let comparison = &report["comparison"];
+            assert_eq!(comparison["coverage_mismatches"], 0, "{comparison}");
+            assert_eq!(comparison["order_wrong"], 0, "{comparison}");
+            for channel in ["z", "color"] {
+                let errors = &comparison[channel];
+                let [error, bound] = ["error", "bound"].map(|what| errors[what].as_f64().expect("a number"));
+                assert!(error <= bound && bound < 1.5, "{channel}: {errors}");
+            }
+            assert_eq!((&report["triangles"], &report["polygons"]), (&2.into(), &4.into()), "{report}");
+        }
+    }
+}
+
+/// A wheel of many corners: more edges than POLY has places, but few on a line.
+fn wheel(corners: u32) -> String {
+    let mut file = format!("size 48 36\nP {corners}");
+    for k in 0..corners {
+        let angle = std::f64::consts::TAU * f64::from(k) / f64::from(corners) + 0.05;
+        _ = write!(file, "  {} {} 0.5 1 0.5 0 0", 24.0 + 16.0 * angle.cos(), 18.0 + 16.0 * angle.sin());
+    }
+    file + "\n"
+}
+
+#[test]
+fn a_polygon_of_many_edges_is_drawn_in_bands() {
+    let folder = folder(&wheel(40));
+    let bands = report(&folder, &["--set", "polygon.edges=8"]);
+    let whole = report(&folder, &["--set", "polygon.edges=64"]);
+    for report in [&bands, &whole] {
+        assert_eq!(report["comparison"]["coverage_mismatches"], 0, "{report}");
+        assert_eq!(report["comparison"]["order_wrong"], 0, "{report}");
+    }
+    assert_eq!(bands["fragments"], whole["fragments"]);
+    assert!(whole["fragments"].as_u64() > Some(700));
+    // A band sends its plane once more.
+    assert!(bands["cycles"]["total"].as_u64() > whole["cycles"]["total"].as_u64(), "{bands}");
+}
+
+#[test]
+fn a_polygon_that_no_plane_holds_becomes_triangles() {
+    let bent = "size 48 36\nP 4  4 4 0 1 0 0 0   44 4 1 0 0 0 0   44 32 0 0 0 1 0   4 32 1 0 0 0 0\n";
+    let folder = folder(bent);
+    let with_poly = report(&folder, &["--set", "polygon.edges=8"]);
+    let without = report(&folder, &[]);
+    for report in [&with_poly, &without] {
+        assert_eq!(report["comparison"]["coverage_mismatches"], 0);
+        assert_eq!(report["triangles"], 2, "{report}");
+    }
+    assert_eq!(with_poly["fragments"], without["fragments"]);
+}
+
+#[test]
+fn what_poly_cannot_draw_names_place_and_remedy() {
+    let teeth: String = (0..12)
+        .map(|k| format!("  {} {} 0.5 1 0 0 0", 2 + 4 * k, if k % 2 == 0 { 2 } else { 34 }))
+        .collect();
+    let comb = format!("size 48 36\nT 0 0 0 0 0 0 0  1 0 0 0 0 0 0  0 1 0 0 0 0 0\nP 12{teeth}\n");
+    let bow = "size 48 36\nP 4  4 4 0 1 0 0 0   44 32 0 1 0 0 0   44 4 1 1 0 0 0   4 32 0.5 1 0 0 0\n";
+    let said = |folder: &tempfile::TempDir, more: &[&str]| {
+        let arguments = [&["render", "a.tri"], more].concat();
+        ended(&edgewalk(folder.path(), &arguments).output().expect("runs"))
+    };
+    let combed = folder(&comb);
+    let (code, error) = said(&combed, &["--set", "polygon.edges=8"]);
+    assert_eq!(code, Some(2), "{error}");
+    for part in ["line 2 of polygon 1 has 12 active edges", "polygon.edges = 8 is the most", "set polygon.edges = 16"] {
+        assert!(error.contains(part), "{error}");
+    }
+    assert_eq!(said(&combed, &["--set", "polygon.edges=16"]).0, Some(0));
+    let (code, error) = said(&folder(bow), &["--set", "polygon.edges=8"]);
+    assert_eq!(code, Some(2), "{error}");
+    for part in ["polygon at vertex 4 4", "its edges cross and no plane holds its z", "largest defect", "permitted"] {
+        assert!(error.contains(part), "{error}");
+    }
+    // Keys that clash.
+    for (key, reason) in [
+        ("edge.fill=textbook", "POLY wants edge.fill = exact"),
+        ("setup.kind=sequenced", "POLY wants setup.kind = parallel"),
+    ] {
+        let arguments =
+            ["config", "print", "--set", "screen.subpixel_bits=0", "--set", "polygon.edges=8", "--set", key];
+        let output = edgewalk(combed.path(), &arguments).output().expect("runs");
+        let (code, error) = ended(&output);
+        assert_eq!(code, Some(2), "{key}: {error}");
+        assert!(error.contains(reason) && error.contains("try polygon.edges = 0"), "{key}: {error}");
+    }
+    for value in ["7", "256", "-1", "many"] {
+        let setting = format!("polygon.edges={value}");
+        let output = edgewalk(combed.path(), &["config", "print", "--set", &setting]).output().expect("runs");
+        let (code, error) = ended(&output);
+        assert!(code == Some(2) && error.contains("0, 8, 16, 32, 64, 128"), "{value}: {error}");
+    }
+}
+
+#[test]
+fn a_polygon_beyond_the_guard_band_is_cut() {
+    let far = "size 48 36\nP 4  -900 -700 0.2 1 0 0 0   900 -700 0.2 1 0 0 0   900 700 0.2 1 0 0 0   -900 700 0.2 1 0 0 0\n";
+    let report = report(&folder(far), &["--set", "polygon.edges=8", "--set", "screen.guard_bits=8"]);
+    assert_eq!(report["comparison"]["coverage_mismatches"], 0, "{report}");
+    assert_eq!(report["fragments"], 48 * 36);
+}
