@@ -102,6 +102,11 @@ fn ports_of_a_machine_that_takes_lines() {
 }
 
 #[test]
+fn ports_of_a_machine_that_takes_polygons() {
+    check("polygon.txt", include_str!("ports/polygon.txt"));
+}
+
+#[test]
 fn ports_of_the_textbook_machine() {
     check("textbook.txt", include_str!("ports/textbook.txt"));
 }

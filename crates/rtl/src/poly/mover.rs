@@ -171,8 +171,8 @@ impl<'m> Way<'m> {
 
         let lines = m.reg("lines_down", pair.line.width()).doc("lines left to go down");
         let columns = m.reg("columns_along", bits).doc("columns left to go, in doubles of what is added");
-        let down = m.reg("down", 1).doc("lines are left");
-        let along = m.reg("along", 1).doc("columns are left");
+        let down = m.reg("down", 1).doc("lines are left").reset(0);
+        let along = m.reg("along", 1).doc("columns are left").reset(0);
         let to_left = m.reg("to_left", 1).doc("they lie to the left").when(takes, left).q();
         let doubles = (!down.q() & along.q()).named("doubles");
         let half = columns.q().shr(1);
