@@ -134,3 +134,23 @@ fn a_polygon_beyond_the_guard_band_is_cut() {
     assert_eq!(report["comparison"]["coverage_mismatches"], 0, "{report}");
     assert_eq!(report["fragments"], 48 * 36);
 }
+
+#[test]
+fn explain_shows_the_registers_of_active_edges() {
+    let folder = folder(FILE);
+    let arguments = ["explain", "a.tri", "24", "12", "--machine", "polygon"];
+    let output = edgewalk(folder.path(), &arguments).output().expect("runs");
+    let text = String::from_utf8_lossy(&output.stdout).into_owned();
+    for part in ["polygon 1: POLY's active edges on line 12", "lines left", "pixel 24 lies in the pair"] {
+        assert!(text.contains(part), "{part}: {text}");
+    }
+    let output = edgewalk(folder.path(), &[&arguments[..], &["--json"]].concat()).output().expect("runs");
+    let page: serde_json::Value = serde_json::from_slice(&output.stdout).expect("a page");
+    let (machine, golden) = (&page["poly"][0], &page["polygons"][0]);
+    let columns = |list: &serde_json::Value, name: &str| -> Vec<i64> {
+        let edges = list["active"].as_array().expect("a list");
+        edges.iter().map(|edge| edge[name].as_i64().expect("a column")).collect()
+    };
+    assert_eq!(columns(machine, "c"), columns(golden, "column"), "{page}");
+    assert_eq!(machine["pair"], golden["span"], "{page}");
+}

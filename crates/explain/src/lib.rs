@@ -4,6 +4,7 @@ pub mod accumulators;
 mod additions;
 mod dithered;
 mod edges;
+mod active;
 mod layers;
 mod table_read;
 mod turned;
@@ -18,6 +19,7 @@ mod page;
 use additions::{Walk, walk};
 use anyhow::Result;
 use dithered::{Dithered, dithered};
+use active::{InPoly, in_poly};
 use edges::{OnLine, on_line};
 use edgewalk_golden::polygon::{EdgeTable, Grid, fragments as polygon_fragments};
 use edgewalk_golden::{Drawing, Order, ShadowMaps, fragments, line_fragments};
@@ -78,6 +80,9 @@ pub struct Explanation {
     /// Of a frame with polygons, those whose edges cross the pixel's line.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     polygons: Vec<OnLine>,
+    /// Of those that POLY draws, the registers of their edges on that line.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    poly: Vec<InPoly>,
     /// With DITHER, where the machine's own colours are known: as `machine`, of a frame whose colours nothing changes on their way.
     #[serde(skip_serializing_if = "Option::is_none")]
     dithered: Option<Dithered>,
@@ -196,6 +201,7 @@ pub fn explain(input: &Input, (x, y): (u32, u32)) -> Result<Explanation> {
         shadows,
         no_shadows,
         polygons: on_line(outlined.unwrap_or(frame), machine, (x, y)),
+        poly: in_poly(frame, machine, (x, y)),
         dithered: walked.as_ref().and_then(|walk| dithered(machine, frame, &walk.output, (x, y))),
         machine: walked,
     })

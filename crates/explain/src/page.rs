@@ -54,6 +54,7 @@ pub(super) fn text(of: &Explanation, color_bits: u32) -> String {
         _ = writeln!(page, "\nno map on the machine: {reason}");
     }
     of.polygons.iter().for_each(|polygon| page += &super::edges::text(polygon, (of.x, of.y)));
+    of.poly.iter().for_each(|polygon| page += &super::active::text(polygon, (of.x, of.y)));
     page += &of.dithered.as_ref().map(super::dithered::text).unwrap_or_default();
     if let Some(walk) = &of.machine {
         machine(&mut page, walk);

@@ -2,7 +2,11 @@
 
 use crate::exhibit::{Exhibit, FILL, GUARD, HEIGHT, View, WIDTH, figure};
 use edgewalk_golden::polygon::{EdgeTable, Grid};
-use edgewalk_golden::{HiddenLines, Picture, draw, wireframe};
+use edgewalk_golden::{HiddenLines, Picture, draw as picture, wireframe};
+use edgewalk_host::draw;
+use edgewalk_judge::compare::{Comparison, compare};
+use edgewalk_machine::Machine;
+use edgewalk_model::Waits;
 use edgewalk_scene::{Frame, Polygon, Scene, ShadeMode, Vertex};
 use std::f64::consts::TAU;
 
@@ -21,9 +25,11 @@ pub(crate) fn polygons() -> anyhow::Result<Exhibit> {
         };
         (0..sides).map(corner).collect()
     };
-    let filled = drawn(vec![sample.clone()]);
-    let star = drawn(vec![ring(110.0, 7, 3)]);
-    let holed = drawn(vec![ring(110.0, 9, 1), ring(60.0, 4, 1)]);
+    let shapes = [vec![sample.clone()], vec![ring(110.0, 7, 3)], vec![ring(110.0, 9, 1), ring(60.0, 4, 1)]];
+    let [filled, star, holed] = shapes.clone().map(drawn);
+    let by_poly = shapes.iter().map(|shape| by_poly(shape)).collect::<anyhow::Result<Vec<_>>>()?;
+    let differ: u64 = by_poly.iter().map(|found| found.counts.coverage_mismatches).sum();
+    let error = by_poly.iter().map(|found| found.errors.color.error).fold(0.0, f64::max);
     let scene = Scene::builtin("torus")?;
     let frame = scene.frame(WIDTH, HEIGHT, GUARD, ShadeMode::Gouraud);
     let table = EdgeTable::new(&polygon(vec![sample.clone()]), ShadeMode::Gouraud, Grid::subpixels(8));
@@ -41,6 +47,8 @@ pub(crate) fn polygons() -> anyhow::Result<Exhibit> {
             figure("nonagon with a square hole: pixels drawn", pixels(&holed), 0),
             figure("its area, pixels", area(&ring(110.0, 9, 1)) - area(&ring(60.0, 4, 1)), 1),
             figure("seven-pointed star: pixels drawn by the odd-even rule", pixels(&star), 0),
+            figure("all three by the machine's POLY: pixels that differ", differ as f64, 0),
+            figure("their largest colour error, LSB", error, 3),
         ],
         views: vec![
             View::colors("sample", "The lecture's polygon", filled.rgb),
@@ -70,7 +78,18 @@ fn polygon(contours: Vec<Vec<[f64; 2]>>) -> Polygon {
 }
 
 fn drawn(contours: Vec<Vec<[f64; 2]>>) -> Picture {
-    draw(&Frame { polygons: vec![polygon(contours)], ..Frame::new(WIDTH, HEIGHT) }, FILL)
+    picture(&Frame { polygons: vec![polygon(contours)], ..Frame::new(WIDTH, HEIGHT) }, FILL)
+}
+
+/// The same shapes by a machine with POLY, beside golden.
+fn by_poly(contours: &[Vec<[f64; 2]>]) -> anyhow::Result<Comparison> {
+    let frame = Frame { polygons: vec![polygon(contours.to_vec())], ..Frame::new(WIDTH, HEIGHT) };
+    let keys = |machine: &mut Machine| {
+        (machine.width, machine.height, machine.polygon.edges) = (WIDTH, HEIGHT, 16);
+    };
+    let plan = Machine::default().with(keys).plan()?;
+    let drawn = draw::fast(&frame, &plan, Waits::Never)?;
+    Ok(compare(&plan, &frame, &draw::golden(&frame, &plan), &drawn))
 }
 
 /// Of a polygon that does not cross itself.

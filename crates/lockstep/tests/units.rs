@@ -109,6 +109,7 @@ fn what_happens_to_a_unit_alone_is_counted() {
         small(&[&phong[..], &relief, &light].concat()),
         small(&[&phong[..], &[("shade.light", "positional")]].concat()),
         small(&[("dither.bits", "5"), ("dither.screen_door", "yes")]),
+        small(&[("polygon.edges", "8")]),
     ];
     let mut rng = Pcg64Mcg::seed_from_u64(9);
     let mut known: BTreeSet<&str> = Unit::known().skip(1).map(Unit::name).collect();

@@ -311,3 +311,43 @@ fn a_line_takes_as_many_clocks_as_the_design_says() {
         assert!(clocks <= most && clocks > 2.0, "{name}: {clocks:.2}");
     }
 }
+
+/// A sheet of 100 by 60 quads on 640 x 480 that leans to the right, its depth and colours in one plane.
+fn sheet(plan: &Plan) -> Vec<Vec<PortVertex>> {
+    let corner = |column: i32, row: i32| {
+        let at = [1500 * column + 60 * row + 700, 1900 * row + 30 * column + 500];
+        let value = |k: i64| 200 + k * (i64::from(at[0]) / 256 + i64::from(at[1]) / 128);
+        plan.raw_vertex(at[0], at[1], &[16 * value(40), value(1), value(2), value(1)])
+    };
+    let quads = (0..60).flat_map(|row| (0..100).map(move |column| [column, row]));
+    let corners = |[x, y]: [i32; 2]| [[x, y], [x + 1, y], [x + 1, y + 1], [x, y + 1]];
+    quads.map(|quad| corners(quad).map(|[x, y]| corner(x, y)).into()).collect()
+}
+
+/// Figures of `docs/polygons.md`: `cargo test -p edgewalk-model --test suites -- polygon::quads --nocapture`.
+#[test]
+fn quads_take_fewer_clocks_than_triangles() {
+    let poly = machine(&[("polygon.edges", "64")]);
+    let edge = with_edge(&poly);
+    let quads = sheet(&poly);
+    let as_polygons: Vec<Triangle> = quads
+        .iter()
+        .flat_map(|quad| poly.polygon(std::slice::from_ref(quad), poly.window_from(quad)))
+        .collect();
+    let halves = |plan: &Plan, quad: &[PortVertex]| {
+        [[0, 1, 2], [0, 2, 3]].map(|half| plan.windowed(at_port(plan, &half.map(|k: usize| quad[k]))))
+    };
+    let of = |plan: &Plan| -> Vec<Triangle> { quads.iter().flat_map(|quad| halves(plan, quad)).collect() };
+    let frame = |plan: &Plan, tokens: &[Triangle]| render(plan, tokens, DrawState::default(), Stalls::NONE);
+    let drawn = [frame(&poly, &as_polygons), frame(&poly, &of(&poly)), frame(&edge, &of(&edge))];
+    let names = ["quads by POLY", "triangles by POLY", "triangles by EDGE"];
+    for (name, frame) in names.iter().zip(&drawn) {
+        let [edges, channels] = frame.counters.setup_clocks;
+        println!("6000 {name}: {} cycles, setup {} clocks", frame.counters.cycles, edges + channels);
+        assert_eq!(frame.coverage, drawn[0].coverage, "{name}");
+    }
+    assert_eq!(quads.len(), 6000);
+    let setup = |k: usize| drawn[k].counters.setup_clocks.iter().sum::<u64>();
+    assert!(setup(0) * 10 < setup(2) * 8, "{} {}", setup(0), setup(2));
+    assert!(drawn[0].counters.cycles < drawn[2].counters.cycles);
+}

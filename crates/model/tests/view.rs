@@ -1,10 +1,11 @@
 //! What is to be seen of the machine: every unit declares it, values fit their shapes, SETUP's jobs fill its clocks.
 
+use crate::common::polygon::{KINDS, shape, vertices};
 use crate::common::{machine, random_machine, random_triangle};
-use edgewalk_machine::{Plan, PortVertex, UNITS};
+use edgewalk_machine::{Plan, PortVertex, Role, Sides, UNITS, Window};
 use edgewalk_model::view::{Item, Shape, Structure, UnitView};
 use edgewalk_model::{DrawState, Rig, Stalls, View, for_channels};
-use rand::SeedableRng;
+use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64Mcg;
 use std::collections::BTreeSet;
 
@@ -32,12 +33,32 @@ fn watch(plan: &Plan, triangles: &[Triangle], stalls: Stalls, mut see: impl FnMu
 fn machines(count: usize, rng: &mut Pcg64Mcg) -> Vec<Plan> {
     let small = [("screen.width", "40"), ("screen.height", "24")];
     let door = [small[0], small[1], ("dither.bits", "5"), ("dither.screen_door", "yes")];
+    let poly = |lanes: &'static str| {
+        machine(&[small[0], small[1], ("polygon.edges", "16"), ("polygon.lines", "yes"), ("setup.lanes", lanes)])
+    };
     let mut machines = vec![machine(&small), machine(&[]), machine(&door), machine(&door[..3])];
+    machines.extend(["1", "2", "4"].map(poly));
     let kinds = ["none", "fast-phong", "none", "phong"].into_iter().cycle();
     let shading =
         |kind| [small[0], small[1], ("shade.kind", kind), ("texture.bits", "4"), ("term.record_bits", "8")];
     machines.extend(kinds.map(|kind| random_machine(&shading(kind), rng)).take(count));
     machines
+}
+
+/// So many triangles or a few more; of a machine with POLY the tokens of polygons among them.
+fn drawn(plan: &Plan, count: usize, rng: &mut Pcg64Mcg) -> Vec<Triangle> {
+    let mut tokens = Vec::new();
+    while tokens.len() < count {
+        tokens.push(plan.windowed(random_triangle(plan, 25.0, rng)));
+        if plan.polygon.is_there() {
+            let contours = shape(plan, KINDS[tokens.len() % KINDS.len()], rng);
+            let vertices = vertices(plan, &contours, |channel, [x, y]| (i64::from(x) * 7 + i64::from(y)) & 63 << channel);
+            let first_lines = Window { x0: 3, y0: 2, y1: 14 };
+            tokens.extend(plan.polygon(&vertices, if rng.random() { first_lines } else { Window::default() }));
+            tokens.push(plan.with_role(random_triangle(plan, 9.0, rng), Role::Plane(Sides::of_bits(rng.random()))));
+        }
+    }
+    tokens
 }
 
 fn registers(unit: &UnitView) -> Vec<usize> {
@@ -119,7 +140,7 @@ fn values_fit_their_shapes_in_every_cycle() {
     let mut rng = Pcg64Mcg::seed_from_u64(82);
     let mut checked = 0u64;
     for plan in machines(8, &mut rng) {
-        let triangles: Vec<Triangle> = (0..12).map(|_| random_triangle(&plan, 25.0, &mut rng)).collect();
+        let triangles = drawn(&plan, 12, &mut rng);
         let stalls = Stalls { seed: 3, rd: 60, data: 60, wr: 60 };
         watch(&plan, &triangles, stalls, |view| {
             let structure = view.structure();
@@ -144,7 +165,7 @@ fn the_jobs_of_setup_fill_its_clocks() {
     let mut rng = Pcg64Mcg::seed_from_u64(83);
     let (mut clocks, mut jobs) = (0u64, 0u64);
     for plan in machines(22, &mut rng) {
-        let triangles: Vec<Triangle> = (0..25).map(|_| random_triangle(&plan, 25.0, &mut rng)).collect();
+        let triangles = drawn(&plan, 25, &mut rng);
         let mut before: Option<[u64; 4]> = None;
         watch(&plan, &triangles, Stalls::NONE, |view| {
             let structure = view.structure();
