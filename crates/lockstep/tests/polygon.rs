@@ -53,8 +53,14 @@ fn corners(plan: &Plan) -> Vec<(&'static str, Vec<Triangle>)> {
         ("edges of one line", of(&[&[[8, 8], [40, 9], [38, 11], [12, 12]]])),
         ("edges on each other", of(&[&square, &[[40, 8], [72, 8], [72, 40], [40, 40]]])),
         ("the whole order reversed in one line", of(&[&[[0, 4], [90, 5], [88, 9], [2, 9]], &crossing])),
-        ("four edges meet", of(&[&[[8, 8], [72, 72], [8, 72], [72, 8]], &[[40, 4], [44, 76], [40, 76], [36, 76]]])),
-        ("edges left of the screen", of(&[&[[-60, 8], [30, 8], [30, 60], [-60, 60]], &[[-50, 4], [-40, 70], [-20, 10]]])),
+        (
+            "four edges meet",
+            of(&[&[[8, 8], [72, 72], [8, 72], [72, 8]], &[[40, 4], [44, 76], [40, 76], [36, 76]]]),
+        ),
+        (
+            "edges left of the screen",
+            of(&[&[[-60, 8], [30, 8], [30, 60], [-60, 60]], &[[-50, 4], [-40, 70], [-20, 10]]]),
+        ),
         ("all right of the screen", of(&[&[[100, 8], [140, 8], [120, 60]]])),
         ("as many edges as there are places", of(&[&full])),
         ("one more", of(&[&over])),
@@ -97,7 +103,8 @@ fn the_corners_of_poly_are_met_alike() {
         let port = Triangles::new(&plan);
         let corners = corners(&plan);
         let together: Vec<Triangle> = corners.iter().flat_map(|(_, tokens)| tokens).copied().collect();
-        for (name, tokens) in corners.iter().cloned().chain([("all", [together.clone(), together].concat())]) {
+        for (name, tokens) in corners.iter().cloned().chain([("all", [together.clone(), together].concat())])
+        {
             for unwilling in [0, 120, 250] {
                 let mut case = Case { seed: 7, about: name.to_owned(), ..Case::new(&plan, Unit::MACHINE) };
                 case.unwilling = [("rd".to_owned(), unwilling), ("wr".to_owned(), unwilling)].into();

@@ -17,7 +17,8 @@ impl Plan {
     /// draw nothing. The plane is that of [`Plan::far_apart`].
     #[must_use]
     pub fn polygon(&self, contours: &[Contour], window: Window) -> Vec<[PortVertex; 3]> {
-        let mut contours: Vec<Contour> = contours.iter().filter(|contour| contour.len() > 2).cloned().collect();
+        let mut contours: Vec<Contour> =
+            contours.iter().filter(|contour| contour.len() > 2).cloned().collect();
         let all: Vec<PortVertex> = contours.iter().flatten().copied().collect();
         let Some(plane) = self.far_apart(&all) else { return Vec::new() };
         // A contour that can be turned so that its last token has a plane as good is the last one.

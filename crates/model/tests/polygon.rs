@@ -150,7 +150,8 @@ fn within_bound(plan: &Plan, contours: &Contours, rng: &mut StdRng) -> (usize, i
             let bound = one / 2 + 1 + i128::from(away);
             assert!(error <= bound * denominator, "channel {i} at {x}, {y}: {output}, {contours:?}");
             values += 1;
-            reached = reached.max((error - one / 2 * denominator) * 1000 / denominator / (1 + i128::from(away)));
+            reached =
+                reached.max((error - one / 2 * denominator) * 1000 / denominator / (1 + i128::from(away)));
         }
     });
     (values, reached)
@@ -269,7 +270,8 @@ fn a_line_takes_as_many_clocks_as_the_design_says() {
     let ring = |count: usize, radius: f64, turn: f64| -> Contours {
         let point = |k: usize| {
             let angle = std::f64::consts::TAU * k as f64 / count as f64 + turn;
-            [(320.0 + radius * angle.cos()) * 256.0, (240.0 + radius * angle.sin()) * 256.0].map(|at| at as i32)
+            [(320.0 + radius * angle.cos()) * 256.0, (240.0 + radius * angle.sin()) * 256.0]
+                .map(|at| at as i32)
         };
         vec![(0..count).map(point).collect()]
     };
@@ -280,9 +282,15 @@ fn a_line_takes_as_many_clocks_as_the_design_says() {
             let mut turns: Vec<f64> = (0..8).map(|_| rng.random_range(0.0..std::f64::consts::TAU)).collect();
             turns.sort_by(f64::total_cmp);
             turns.dedup();
-            vec![turns.iter().map(|angle| {
-                [(320.0 + 300.0 * angle.cos()) * 256.0, (240.0 + 230.0 * angle.sin()) * 256.0].map(|at| at as i32)
-            }).collect()]
+            vec![
+                turns
+                    .iter()
+                    .map(|angle| {
+                        [(320.0 + 300.0 * angle.cos()) * 256.0, (240.0 + 230.0 * angle.sin()) * 256.0]
+                            .map(|at| at as i32)
+                    })
+                    .collect(),
+            ]
         })
         .collect();
     let concave: Vec<Contours> = (0..40)
@@ -290,7 +298,8 @@ fn a_line_takes_as_many_clocks_as_the_design_says() {
             let point = |k: usize| {
                 let angle = std::f64::consts::TAU * k as f64 / 12.0;
                 let radius = rng.random_range(20.0..235.0);
-                [(320.0 + radius * angle.cos()) * 256.0, (240.0 + radius * angle.sin()) * 256.0].map(|at| at as i32)
+                [(320.0 + radius * angle.cos()) * 256.0, (240.0 + radius * angle.sin()) * 256.0]
+                    .map(|at| at as i32)
             };
             vec![(0..12).map(point).collect()]
         })

@@ -28,7 +28,11 @@ pub fn golden(plan: &Plan, contours: &Contours) -> BTreeSet<(i64, i64)> {
 }
 
 /// The contours as vertices whose values lie in a plane, as far as they can.
-pub fn vertices(plan: &Plan, contours: &Contours, value: impl Fn(usize, Point) -> i64) -> Vec<Vec<PortVertex>> {
+pub fn vertices(
+    plan: &Plan,
+    contours: &Contours,
+    value: impl Fn(usize, Point) -> i64,
+) -> Vec<Vec<PortVertex>> {
     let channels = plan.channels().len();
     let vertex = |p: &Point| {
         let values: Vec<i64> = (0..channels).map(|channel| value(channel, *p)).collect();
@@ -77,7 +81,8 @@ pub fn shape(plan: &Plan, kind: &str, rng: &mut impl Rng) -> Contours {
             let teeth = 5;
             let (top, bottom) = (2 * unit, sides[1] - 2 * unit);
             let step = sides[0] / (2 * teeth + 1);
-            contours[last] = (0..2 * teeth + 1).map(|k| [k * step, if k % 2 == 0 { bottom } else { top }]).collect();
+            contours[last] =
+                (0..2 * teeth + 1).map(|k| [k * step, if k % 2 == 0 { bottom } else { top }]).collect();
             contours[last].push([2 * teeth * step, sides[1] - unit]);
             contours[last].push([0, sides[1] - unit]);
         }
