@@ -80,9 +80,9 @@ impl<'m> Pass<'m> {
         let b = line.read(m, tables, &inserts, advance, ends);
 
         m.comment("Stage C: the word with its record.");
-        let head_or_entry = Word::choose(entry.enters, entry.word, inserts.head.q());
-        let index = b_valid.q().mux(b.index, head_or_entry.index).named("next_index");
-        let column = b_valid.q().mux(b.key, inserts.head.q().key);
+        let head = inserts.head.q();
+        let index = b_valid.q().mux(b.index, entry.enters.mux(entry.index, head.index)).named("next_index");
+        let column = b_valid.q().mux(b.key, head.key);
         let place = tables.at(!load.bank, index);
         let steps = tables.parts_of_steps(tables.steps.read(advance, place));
         let record = tables.rests.read(advance, place);
@@ -181,7 +181,8 @@ struct Entry<'m> {
     some: Signal<'m>,
     /// It begins on the next line.
     enters: Signal<'m>,
-    word: Word<'m>,
+    /// Its number.
+    index: Signal<'m>,
 }
 
 impl<'m> Entry<'m> {
@@ -207,6 +208,6 @@ impl<'m> Entry<'m> {
         let place = behind.q() & run.q().sext(tables.index);
         let place = tables.at(load.bank ^ run.q(), place);
         word.drive(tables.order.read(!run.q() | taken, place));
-        Entry { some, enters, word: first }
+        Entry { some, enters, index: first.index }
     }
 }
