@@ -4,7 +4,7 @@
 use crate::common;
 use crate::common::machines::random_machine;
 use edgewalk_lockstep::{Interface, NetlistDevice, NoPlace, PortError, Triangles, Unit, model, netlist};
-use edgewalk_machine::{Field, Plan, Role};
+use edgewalk_machine::{Field, Plan, Role, Window};
 use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64Mcg;
 
@@ -106,7 +106,7 @@ fn triangles_pass_the_port_and_come_back() {
             let channels = &vertex.values()[..plan.channels().len()];
             plan.raw_vertex(vertex.x(), vertex.y(), &[channels, &[kt]].concat())
         });
-        let kept = plan.with_role(first_kt, Role::of(&triangle));
+        let kept = plan.with_window(plan.with_role(first_kt, Role::of(&triangle)), Window::of(&triangle));
         assert_eq!(port.unpack(&port.pack(&triangle, tag)), (kept, tag));
         lines += usize::from(Role::of(&triangle).is_line());
         checked += 1;

@@ -175,7 +175,9 @@ impl Plan {
             let low = |value: u32, bits: u32| (value & (u32::MAX >> (32 - bits))) as u16;
             a.own = a.own & 7 | low(window.x0, x) << 3;
             b.own = b.own & 0xe000 | low(window.y0, y);
-            c.own = low(window.y1, y + 1) ^ LINES as u16;
+            // All ones stand for all lines, however many bits there are.
+            let (all, end) = (low(u32::MAX, y + 1), low(window.y1, y + 1));
+            c.own = if end == all { 0 } else { end ^ LINES as u16 };
         }
         vertices
     }
