@@ -31,7 +31,8 @@ fn report(folder: &tempfile::TempDir, more: &[&str]) -> serde_json::Value {
 #[test]
 fn polygons_in_planes_are_drawn_by_every_engine() {
     let folder = folder(FILE);
-    for more in [&["--machine", "polygon"][..], &["--set", "polygon.edges=16", "--set", "polygon.lines=yes"]] {
+    for more in [&["--machine", "polygon"][..], &["--set", "polygon.edges=16", "--set", "polygon.lines=yes"]]
+    {
         for report in rendered_by_every_engine(folder.path(), &[&["a.tri"], more].concat()) {
             let comparison = &report["comparison"];
             assert_eq!(comparison["coverage_mismatches"], 0, "{comparison}");
@@ -86,9 +87,8 @@ fn a_polygon_that_no_plane_holds_becomes_triangles() {
 
 #[test]
 fn what_poly_cannot_draw_names_place_and_remedy() {
-    let teeth: String = (0..12)
-        .map(|k| format!("  {} {} 0.5 1 0 0 0", 2 + 4 * k, if k % 2 == 0 { 2 } else { 34 }))
-        .collect();
+    let teeth: String =
+        (0..12).map(|k| format!("  {} {} 0.5 1 0 0 0", 2 + 4 * k, if k % 2 == 0 { 2 } else { 34 })).collect();
     let comb = format!("size 48 36\nT 0 0 0 0 0 0 0  1 0 0 0 0 0 0  0 1 0 0 0 0 0\nP 12{teeth}\n");
     let bow = "size 48 36\nP 4  4 4 0 1 0 0 0   44 32 0 1 0 0 0   44 4 1 1 0 0 0   4 32 0.5 1 0 0 0\n";
     let said = |folder: &tempfile::TempDir, more: &[&str]| {
@@ -98,13 +98,17 @@ fn what_poly_cannot_draw_names_place_and_remedy() {
     let combed = folder(&comb);
     let (code, error) = said(&combed, &["--set", "polygon.edges=8"]);
     assert_eq!(code, Some(2), "{error}");
-    for part in ["line 2 of polygon 1 has 12 active edges", "polygon.edges = 8 is the most", "set polygon.edges = 16"] {
+    for part in
+        ["line 2 of polygon 1 has 12 active edges", "polygon.edges = 8 is the most", "set polygon.edges = 16"]
+    {
         assert!(error.contains(part), "{error}");
     }
     assert_eq!(said(&combed, &["--set", "polygon.edges=16"]).0, Some(0));
     let (code, error) = said(&folder(bow), &["--set", "polygon.edges=8"]);
     assert_eq!(code, Some(2), "{error}");
-    for part in ["polygon at vertex 4 4", "its edges cross and no plane holds its z", "largest defect", "permitted"] {
+    for part in
+        ["polygon at vertex 4 4", "its edges cross and no plane holds its z", "largest defect", "permitted"]
+    {
         assert!(error.contains(part), "{error}");
     }
     // Keys that clash.

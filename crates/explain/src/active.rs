@@ -77,7 +77,11 @@ fn sides(prim: &Prim<MAX_CHANNELS>) -> Vec<(u32, u32, EdgeWalk)> {
         (prim.line, n1, prim.minor[0]),
         (prim.line + n1, n2, prim.minor[1]),
     ];
-    all.into_iter().enumerate().filter(|(side, _)| prim.sides >> side & 1 == 1).map(|(_, side)| side).collect()
+    all.into_iter()
+        .enumerate()
+        .filter(|(side, _)| prim.sides >> side & 1 == 1)
+        .map(|(_, side)| side)
+        .collect()
 }
 
 /// The edge on a line, if it is there.

@@ -16,10 +16,10 @@ mod texel;
 mod terms;
 mod page;
 
+use active::{InPoly, in_poly};
 use additions::{Walk, walk};
 use anyhow::Result;
 use dithered::{Dithered, dithered};
-use active::{InPoly, in_poly};
 use edges::{OnLine, on_line};
 use edgewalk_golden::polygon::{EdgeTable, Grid, fragments as polygon_fragments};
 use edgewalk_golden::{Drawing, Order, ShadowMaps, fragments, line_fragments};

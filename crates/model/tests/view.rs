@@ -34,7 +34,13 @@ fn machines(count: usize, rng: &mut Pcg64Mcg) -> Vec<Plan> {
     let small = [("screen.width", "40"), ("screen.height", "24")];
     let door = [small[0], small[1], ("dither.bits", "5"), ("dither.screen_door", "yes")];
     let poly = |lanes: &'static str| {
-        machine(&[small[0], small[1], ("polygon.edges", "16"), ("polygon.lines", "yes"), ("setup.lanes", lanes)])
+        machine(&[
+            small[0],
+            small[1],
+            ("polygon.edges", "16"),
+            ("polygon.lines", "yes"),
+            ("setup.lanes", lanes),
+        ])
     };
     let mut machines = vec![machine(&small), machine(&[]), machine(&door), machine(&door[..3])];
     machines.extend(["1", "2", "4"].map(poly));
@@ -52,10 +58,15 @@ fn drawn(plan: &Plan, count: usize, rng: &mut Pcg64Mcg) -> Vec<Triangle> {
         tokens.push(plan.windowed(random_triangle(plan, 25.0, rng)));
         if plan.polygon.is_there() {
             let contours = shape(plan, KINDS[tokens.len() % KINDS.len()], rng);
-            let vertices = vertices(plan, &contours, |channel, [x, y]| (i64::from(x) * 7 + i64::from(y)) & 63 << channel);
+            let vertices = vertices(plan, &contours, |channel, [x, y]| {
+                (i64::from(x) * 7 + i64::from(y)) & 63 << channel
+            });
             let first_lines = Window { x0: 3, y0: 2, y1: 14 };
-            tokens.extend(plan.polygon(&vertices, if rng.random() { first_lines } else { Window::default() }));
-            tokens.push(plan.with_role(random_triangle(plan, 9.0, rng), Role::Plane(Sides::of_bits(rng.random()))));
+            tokens
+                .extend(plan.polygon(&vertices, if rng.random() { first_lines } else { Window::default() }));
+            tokens.push(
+                plan.with_role(random_triangle(plan, 9.0, rng), Role::Plane(Sides::of_bits(rng.random()))),
+            );
         }
     }
     tokens

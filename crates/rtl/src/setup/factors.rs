@@ -89,7 +89,10 @@ impl<'m> Sources<'_, 'm> {
         let low = |place: usize| natural(self.low_column(place));
         let edge = |edge: usize| {
             let factors = || if edge < 2 { [low(0), natural(lines.h0)] } else { [low(1), natural(lines.h1)] };
-            match self.walked.edge(edge).map(|walked| walked.sext(self.bits())) {
+            // Lanes side by side have the same factors for the major and the first minor edge.
+            let both = || self.walked.edge(0).zip(self.walked.edge(1)).map(|(major, minor)| major | minor);
+            let walked = if edge == 0 && plan.lanes > 1 { both() } else { self.walked.edge(edge) };
+            match walked.map(|walked| walked.sext(self.bits())) {
                 Some(used) => factors().map(|factor| factor & used),
                 None => factors(),
             }

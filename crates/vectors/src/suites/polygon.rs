@@ -35,7 +35,8 @@ pub(super) fn shapes(machine: &Plan) -> Vec<Case> {
     let crossing = vec![(0.5, 0.5), (w - 0.5, h - 1.0), (0.5, h - 1.0), (w - 0.5, 0.5)];
     let wide = ring(middle, (0..6).map(|_| pen.limit()));
     let halves = [vec![(1.0, 1.0), (4.5, 1.0), (4.0, 5.0)], vec![(5.5, 2.0), (9.0, 5.5), (6.0, 7.0)]];
-    let mut cases: Vec<Case> = (3..9).map(|corners| case(&format!("convex_{corners}"), of(&[convex(corners)]))).collect();
+    let mut cases: Vec<Case> =
+        (3..9).map(|corners| case(&format!("convex_{corners}"), of(&[convex(corners)]))).collect();
     cases.extend([
         case("star", of(&[star])),
         case("hole", of(&hole)),
@@ -63,7 +64,9 @@ pub(super) fn corners(machine: &Plan) -> Vec<Case> {
     let square = |x: f64, y: f64, side: f64| vec![(x, y), (x + side, y), (x + side, y + side), (x, y + side)];
     let diamond = vec![(4.5, 0.5), (8.5, 4.5), (4.5, 8.5), (0.5, 4.5)];
     let window = |y0: u32, y1: u32| Some(Window { x0: 1, y0, y1 });
-    let as_role = |vertices: Triangle, role: Role| machine.with_window(machine.with_role(vertices, role), Window::default());
+    let as_role = |vertices: Triangle, role: Role| {
+        machine.with_window(machine.with_role(vertices, role), Window::default())
+    };
     let triangle = pen.shaded([(1.0, 1.0), (7.0, 2.0), (3.0, 7.0)], [0.2, 0.4, 0.6]);
     let low = pen.shaded([(1.0, 6.0), (4.0, 6.5), (2.0, 9.0)], [0.3; 3]);
     let flat = [triangle[0], triangle[1], triangle[1]];
@@ -88,11 +91,20 @@ pub(super) fn corners(machine: &Plan) -> Vec<Case> {
         case("window_inside", pen.polygon(&[diamond.clone()], window(2, 5))),
         case("window_below", pen.polygon(&[diamond], window(6, 9))),
         case("end_alone", [as_role(triangle, Role::Plane(Sides::default()))]),
-        case("void", [as_role(triangle, Role::Edges(Sides::ALL)), as_role(flat, Role::Plane(Sides::default()))]),
-        case("put_in_order", [as_role(low, Role::Edges(Sides::ALL)), as_role(triangle, Role::Plane(Sides::ALL))]),
+        case(
+            "void",
+            [as_role(triangle, Role::Edges(Sides::ALL)), as_role(flat, Role::Plane(Sides::default()))],
+        ),
+        case(
+            "put_in_order",
+            [as_role(low, Role::Edges(Sides::ALL)), as_role(triangle, Role::Plane(Sides::ALL))],
+        ),
         case("sides_that_do_not_count", {
             let some = |sides| Role::Edges(Sides::new(sides));
-            [as_role(low, some([true, false, true])), as_role(triangle, Role::Plane(Sides::new([false, true, true])))]
+            [
+                as_role(low, some([true, false, true])),
+                as_role(triangle, Role::Plane(Sides::new([false, true, true]))),
+            ]
         }),
     ]
 }

@@ -15,8 +15,8 @@ mod traces;
 
 use crate::common;
 use edgewalk_machine::{
-    Blend, BlendKind, Dither, Gate, Hazard, Machine, Plan, Precision, ScreenDoor, Shadow, ShadowLight,
-    Transmits,
+    Blend, BlendKind, Dither, EdgeKind, Gate, Hazard, Lines, Machine, Plan, Precision, ScreenDoor, Shadow,
+    ShadowLight, Transmits,
 };
 use edgewalk_netlist::Module;
 use edgewalk_netlist::mutate::mutants;
@@ -120,6 +120,31 @@ fn a_bit_of_a_rom_that_nobody_sees_is_equivalent() {
     }
     let word = |bit: u32, word: u32, is: u32| format!("bit {bit} of word {word} of `rom` is {is}");
     assert_eq!(equivalent, [word(1, 2, 1), word(0, 3, 0), word(1, 3, 0)]);
+}
+
+/// POLY with exact edges and lines, and with slopes.
+fn machines_with_poly() -> Vec<(Plan, Unit)> {
+    let each = |(kind, lines): (EdgeKind, Lines)| {
+        let mut machine = Machine::clone(&common::small());
+        (machine.polygon.edges, machine.polygon.lines) = (8, lines);
+        (machine.edge_kind, machine.edge_fraction) = (kind, 10);
+        (machine.plan().expect("can be built"), common::POLY)
+    };
+    [(EdgeKind::Exact, Lines::Yes), (EdgeKind::Slope, Lines::No)].map(each).to_vec()
+}
+
+/// Of POLY.
+const POLY_LEAST: usize = 98;
+
+#[test]
+fn single_faults_of_poly_are_found() {
+    share_found(&machines_with_poly(), |_| 40, LEAST);
+}
+
+#[test]
+#[ignore = "minutes: each fault of POLY"]
+fn every_fault_of_poly_is_found() {
+    share_found(&machines_with_poly(), |_| 1, POLY_LEAST);
 }
 
 fn machines() -> Vec<(Plan, Unit)> {

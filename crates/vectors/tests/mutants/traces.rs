@@ -80,6 +80,17 @@ pub fn traces(machine: &Plan, unit: Unit) -> Vec<Trace> {
             traces
                 .extend([setup::specks(machine), far, setup::halves(machine), steep].into_iter().chain(cut));
         }
+        "poly" => {
+            let names = ["polygon", "polygon_corners"];
+            let suites = names.map(|name| Suite::named(machine, name, 1, 24).expect("listed"));
+            let suite = Suite::joined("polygons", "every shape and corner", suites);
+            traces.truncate(1);
+            for stalls in StallKind::ALL {
+                traces.push(capture(machine, unit, &suite, suite.state, stalls));
+            }
+            let cut = [97, 230].map(|each| setup::cut_often(&traces[1], each));
+            traces.extend(cut);
+        }
         "pixel" => {
             traces
                 .extend((1..=2).map(|seed| others_increments(machine, &traces[1], seed)).collect::<Vec<_>>());
