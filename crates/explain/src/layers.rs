@@ -39,7 +39,7 @@ pub fn layers(frame: &Frame, machine: &Plan, (x, y): (u32, u32)) -> Result<Vec<L
     }
     let port = to_port(frame, machine)?;
     let mut lights = Lights::of(machine, frame, port.lights.iter().map(|map| &map.words[..]).collect(), None);
-    let (errors, max, mut bound) = (Errors::of(machine), machine.color.max() as f64, 0.5);
+    let (errors, max, mut bound) = (Errors::of(machine, frame), machine.color.max() as f64, 0.5);
     let mut layers = Vec::new();
     let drawing = golden_drawing(frame, machine);
     let picture = |step| {

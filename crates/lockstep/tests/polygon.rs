@@ -28,9 +28,11 @@ fn contour(plan: &Plan, corners: &[[i32; 2]]) -> Vec<PortVertex> {
     corners.iter().enumerate().map(|(k, [x, y])| plan.raw_vertex(*x, *y, &values(k))).collect()
 }
 
+/// All tokens, in a window that may leave some of them no line.
 fn polygon(plan: &Plan, contours: &[&[[i32; 2]]], window: Window) -> Vec<Triangle> {
     let contours: Vec<Vec<PortVertex>> = contours.iter().map(|corners| contour(plan, corners)).collect();
-    plan.polygon(&contours, window)
+    let tokens = plan.polygon(&contours, Window::default());
+    tokens.into_iter().map(|token| plan.with_window(token, window)).collect()
 }
 
 /// The named corners of POLY, each as tokens.
