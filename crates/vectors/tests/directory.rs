@@ -98,14 +98,15 @@ fn the_units_one_behind_the_other_are_the_machine() {
 #[test]
 fn directed_suites_reach_every_hazard_and_corner() {
     let mut reached = edgewalk_model::Events::default();
-    for (_, machine) in all().chain(common::lined()) {
+    for (_, machine) in all().chain(common::lined()).chain(common::polygonal()) {
         let lines = machine.polygon.has_lines().then_some("lines");
         let light = machine.shadow.is_there().then_some(["light", "light_off"]);
         let own = machine.shadow.draws_map().then_some(["own_map", "own_picture"]);
         let shade = machine.shade.is_there().then_some("shade");
         let of_light = light.into_iter().chain(own).flatten();
         let dither = machine.dither.is_there().then_some("dither");
-        let own = of_light.chain(shade).chain(dither).chain(lines);
+        let polygons = machine.polygon.is_there().then_some(["polygon", "polygon_corners"]);
+        let own = of_light.chain(shade).chain(dither).chain(lines).chain(polygons.into_iter().flatten());
         for name in ["hazards", "corners", "sphere"].into_iter().chain(own) {
             for stalls in [StallKind::Mixed, StallKind::Late] {
                 let suite = suite(&machine, name);

@@ -33,9 +33,21 @@ pub fn random_machine(rng: &mut Pcg64Mcg) -> Plan {
     }
 }
 
+/// The same with POLY in EDGE's place.
+pub fn random_poly(rng: &mut Pcg64Mcg) -> Plan {
+    loop {
+        let mut machine = draw(rng);
+        machine.polygon.edges = *[8, 8, 16, 32].choose(rng).expect("four");
+        if let Ok(plan) = machine.plan() {
+            return plan;
+        }
+    }
+}
+
 fn draw(rng: &mut Pcg64Mcg) -> Machine {
     let mut machine = Machine::default();
-    for key in KEYS {
+    // Machines with POLY are drawn apart, by `random_poly`.
+    for key in KEYS.iter().filter(|key| key.name != "polygon.edges") {
         let narrow = NARROW.iter().find(|(name, ..)| *name == key.name);
         let domain = narrow.map_or(key.domain, |(_, low, high)| Domain::Range(*low, *high));
         let value = match domain {
@@ -65,9 +77,6 @@ fn draw(rng: &mut Pcg64Mcg) -> Machine {
     }
     if machine.fill == Fill::Textbook {
         machine.subpixel_bits = 0;
-    }
-    if machine.fill == Fill::Textbook || machine.setup_kind == SetupKind::Sequenced || rng.random() {
-        machine.polygon.edges = 0; // EDGE
     }
     if machine.fill == Fill::Textbook || machine.subpixel_bits == 0 || machine.shade.is_there() {
         machine.polygon.lines = Lines::No; // a line has no half pixel there, or nobody who walks up

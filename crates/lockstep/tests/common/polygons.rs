@@ -10,9 +10,12 @@ pub type Triangle = [PortVertex; 3];
 
 /// So many tokens or a few more: triangles and lines, and where the port takes them polygons, each with its plane at the end.
 pub fn primitives(plan: &Plan, count: usize, rng: &mut Pcg64Mcg) -> Vec<Triangle> {
+    if !plan.polygon.is_there() {
+        return (0..count).map(|_| random_primitive(plan, rng)).collect();
+    }
     let mut tokens = Vec::new();
     while tokens.len() < count {
-        if plan.polygon.is_there() && rng.random_bool(0.6) {
+        if rng.random_bool(0.6) {
             tokens.extend(random_polygon(plan, rng));
         } else {
             let primitive = random_primitive(plan, rng);

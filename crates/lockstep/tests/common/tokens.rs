@@ -1,7 +1,7 @@
 //! Tokens for a unit alone: such as the rest of the machine would rarely give it.
 
 use super::polygons::primitives;
-use super::triangles::sides;
+use super::triangles::{random_primitive, sides};
 use edgewalk_lockstep::{Direction, Interface, Port, Rig, Setting, Token, Triangles, Unit, model};
 use edgewalk_machine::{Fill, Plan};
 use edgewalk_model::DrawState;
@@ -34,7 +34,10 @@ pub fn random_tokens(plan: &Plan, unit: Unit, count: usize, rng: &mut Pcg64Mcg) 
 
 fn triangles(plan: &Plan, count: usize, rng: &mut Pcg64Mcg) -> Vec<Token> {
     let port = Triangles::new(plan);
-    primitives(plan, count, rng).iter().map(|triangle| port.pack(triangle, rng.random())).collect()
+    if plan.polygon.is_there() {
+        return primitives(plan, count, rng).iter().map(|triangle| port.pack(triangle, rng.random())).collect();
+    }
+    (0..count).map(|_| port.pack(&random_primitive(plan, rng), rng.random())).collect()
 }
 
 /// The prims of random triangles, those that are not culled.
