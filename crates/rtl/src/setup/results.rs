@@ -52,9 +52,10 @@ impl<'m> Results<'_, 'm> {
         self.walked.edge(edge).map_or(high, |walked| walked & high)
     }
 
-    /// With POLY: an edge of a round that is left out is 0.
+    /// With POLY: an edge of a round that is left out is 0; a slope is not written where no side counts.
     fn left_out(&self, edge: usize) {
-        if self.plan.polygon.is_there() && rounds(self.plan)[0] > 1 {
+        let leaves_out = rounds(self.plan)[0] > 1 || self.plan.edge_kind == EdgeKind::Slope;
+        if self.plan.polygon.is_there() && leaves_out {
             for result in ["c", "r", "q", "f"] {
                 self.register(EDGES[edge], result).when(self.control.sequence.take, 0);
             }
