@@ -27,6 +27,8 @@ use traces::traces;
 /// Of so many faults the test run tries one; of SETUP, which is slow to run, of so many.
 const SAMPLE: usize = 16;
 const SAMPLE_OF_SETUP: usize = 320;
+/// Of POLY, whose memories keep the prover busy.
+const SAMPLE_OF_POLY: usize = 160;
 
 /// Least share killed of those that are not proved equivalent, in percent; what is measured is printed.
 const LEAST: usize = 95;
@@ -138,7 +140,7 @@ const POLY_LEAST: usize = 98;
 
 #[test]
 fn single_faults_of_poly_are_found() {
-    share_found(&machines_with_poly(), |_| 40, LEAST);
+    share_found(&machines_with_poly(), |_| SAMPLE_OF_POLY, LEAST);
 }
 
 #[test]
