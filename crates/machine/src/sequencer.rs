@@ -14,7 +14,7 @@ use word::Word;
 pub const LISTING: &str = include_str!("sequencer/listing.txt");
 
 /// Rows that have names; behind them come those of the vertices.
-pub const NAMED_ROWS: u8 = 64;
+pub const NAMED_ROWS: u8 = 128;
 
 /// The program of one machine.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -76,7 +76,7 @@ mod tests {
             let plan = Machine { lanes, ..Machine::default() }.plan().expect("can be built");
             let program = Program::of(&plan);
             assert!((200..=512).contains(&program.words.len()), "{} words", program.words.len());
-            assert!(program.rows.values().all(|row| *row < NAMED_ROWS - 3));
+            assert!(program.rows.values().all(|row| *row <= NAMED_ROWS - 8));
             let places = program.words.iter().filter_map(|word| word.control.place());
             assert!(places.count() > 20, "words that name a place");
         }

@@ -88,17 +88,23 @@ pub(super) fn setup(plan: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
     let prim = results::results(&parts, &control, &ports.gives_link().fields);
     for (name, value) in [("kt", input.kt), ("tag", triangle.get("tag"))] {
         if let (Some(register), Some(value)) = (prim.get(name), value) {
-            register.when(input.last, value.trunc(register.q().width()));
+            let taken = m
+                .reg(&format!("taken_{name}"), register.q().width())
+                .doc("of the triangle that is worked on");
+            taken.when(input.last, value.trunc(register.q().width()));
+            register.when(control.done, taken.q());
         }
     }
     if let Some(record) = prim.get("record") {
+        let bits = plan.shade.record_bits;
+        let taken = m.reg("taken_record", bits).doc("number of the triangle that is worked on");
         // Culled triangles count: the first after a reset has record 0.
-        record.reset((1 << plan.shade.record_bits) - 1).when(input.last, record.q() + 1);
+        taken.reset((1 << bits) - 1).when(input.last, taken.q() + 1);
+        record.when(control.done, taken.q());
     }
 
     ports.take_ready(control.idle);
     ports.give(control.prim_there, |name| match name {
-        "major_right" => control.right,
         _ => prim[name].q(),
     });
     m.finish()
