@@ -192,6 +192,7 @@ impl Reader {
                 "if positive" => step.only = Only::Positive,
                 "if no upper" => step.only = Only::NoUpper,
                 "if right" => step.only = Only::Right,
+                "if thin" => step.only = Only::Thin,
                 "raised" => step.operand = Operand::Raised,
                 "by side" if step.sign == Sign::Plus => step.sign = Sign::PlusBySide,
                 "by side" if step.sign == Sign::Minus => step.sign = Sign::MinusBySide,

@@ -87,6 +87,8 @@ pub enum Only {
     NoUpper,
     /// If `major_right`.
     Right,
+    /// If it is a line.
+    Thin,
 }
 
 /// Which row is read.
@@ -100,7 +102,7 @@ pub enum Row {
     Edge(u8),
     /// Of the table that begins here: the row of the number of the round, or of the edge.
     Number(u8),
-    /// Of the two that begin here: that of the picture, or of the map.
+    /// Of the two that begin here: that of the picture, or of the map. Height and width change places for a flat line.
     Pass(u8),
     /// A word of a vertex.
     Vertex(Corner, Part),

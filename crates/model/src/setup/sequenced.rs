@@ -10,9 +10,9 @@ use super::SetupClocks;
 use super::edges::{Parts, Screen};
 use super::sort::{Corner, Sorted};
 use crate::tokens::Prim;
-use edgewalk_machine::Plan;
 use edgewalk_machine::sequencer::word::{Act, Control, Drop, Factor, Word};
 use edgewalk_machine::sequencer::{Program, edges_are_beside, rounds};
+use edgewalk_machine::{Plan, Role};
 use std::ops::Range;
 
 /// Clocks from the word that loads g until its first skipped digit shows.
@@ -245,7 +245,7 @@ impl ProgramClocks {
     /// The words up to the area; none if there is no column.
     fn columns<const C: usize>(&self, screen: Screen, sorted: &Sorted<C>) -> Option<u32> {
         let [i0, i1, i2] = screen.columns(self.t, sorted);
-        let tests = [i2 < i0, i1 < i0, i0 < i2, i0 < i1];
+        let tests = [i2 < i0, i1 < i0, i0 < i2, i0 < i1 || sorted.role != Role::Triangle];
         tests.iter().position(|found| *found).map(|test| self.columns[test])
     }
 

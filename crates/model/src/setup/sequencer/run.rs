@@ -5,11 +5,11 @@ use super::lane::{Addend, Formats, Lane, Number, signed};
 use super::slow::{Ran, SlowSetup};
 use crate::setup::Culled;
 use crate::tokens::{Prim, sign_extend};
-use edgewalk_machine::PortVertex;
 use edgewalk_machine::sequencer::word::{
     Act, Control, Corner, Drop, Factor, Give, Only, Part, Row, Step, Word, Write,
 };
 use edgewalk_machine::sequencer::{NAMED_ROWS, edges_are_beside};
+use edgewalk_machine::{PortVertex, Role};
 
 /// A word that waits this long sees what a row or a check has become.
 const BEHIND: u32 = 3;
@@ -149,6 +149,7 @@ impl<'a, const C: usize> Run<'a, C> {
                 Only::Positive => a >= 0,
                 Only::NoUpper => !self.lines[0],
                 Only::Right => self.right,
+                Only::Thin => Role::of(self.vertices) != Role::Triangle,
             };
             if done && !holds {
                 self.lanes[lane].step(&Addend { base, row: value, operand, sign }, &formats);
@@ -220,6 +221,10 @@ impl<'a, const C: usize> Run<'a, C> {
             Row::Digits(table) => table + digits,
             Row::Edge(table) => table + (self.edge(lane) as u8 & 3),
             Row::Number(table) => self.numbered(table),
+            Row::Pass(table) if Role::of(self.vertices) == (Role::Line { flat: true }) => {
+                let [height, width] = ["height", "width"].map(|name| self.setup.program.row(name));
+                (if table == height { width } else { height }) + u8::from(self.light_pass)
+            }
             Row::Pass(table) => table + u8::from(self.light_pass),
             Row::Vertex(corner, part) => {
                 let place = match corner {

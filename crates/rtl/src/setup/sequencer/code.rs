@@ -1,5 +1,6 @@
 //! The assembler: words of the program as bits of the ROM, and the bits that stand in it, taken apart.
 
+use edgewalk_machine::Plan;
 use edgewalk_machine::sequencer::Program;
 use edgewalk_machine::sequencer::word::{
     ACTS, Act, Base, Control, Corner, Factor, Give, Only, Operand, Part, Row, Sign, Word,
@@ -117,15 +118,11 @@ impl<'m> Decoded<'m> {
 
 /// The ROM; gives the word that was addressed a clock before.
 pub(super) fn rom<'m>(m: &'m Module, program: &Program, next: Signal<'m>) -> Decoded<'m> {
-    let fields: Vec<_> = fields(program).collect();
+    let (fields, words) = coded(program);
     let bits = fields.iter().map(|(_, bits)| bits).sum();
     let rom = m.memory("listing", place_bits(program), program.words.len(), bits).doc("the program");
-    for (place, word) in program.words.iter().enumerate() {
-        let mut code = 0u128;
-        for (name, bits) in &fields {
-            code = code << bits | value(word, name);
-        }
-        rom.holds(place, code, &word.text);
+    for (place, word) in words.iter().enumerate() {
+        rom.holds(place, word.code, &word.text);
     }
     let word = rom.read(m.lit(1, 1), next);
     let mut below = bits;
@@ -135,6 +132,59 @@ pub(super) fn rom<'m>(m: &'m Module, program: &Program, next: Signal<'m>) -> Dec
         decoded.push((name, word.slice(below + bits - 1, below).named(name)));
     }
     Decoded(decoded)
+}
+
+/// A word of the ROM.
+#[derive(Clone, Debug)]
+pub struct RomWord {
+    /// The word's line of the listing.
+    pub text: String,
+    /// Its bits.
+    pub code: u128,
+    /// The bits that something depends on; the others do not care.
+    pub used: u128,
+}
+
+/// The parts of a word in the ROM, the most significant first, and what each word holds.
+#[must_use]
+pub fn program_rom(plan: &Plan) -> (Vec<(&'static str, u32)>, Vec<RomWord>) {
+    coded(&Program::of(plan))
+}
+
+fn coded(program: &Program) -> (Vec<(&'static str, u32)>, Vec<RomWord>) {
+    let fields: Vec<_> = fields(program).collect();
+    let packed = |part: &dyn Fn(&'static str) -> u128| {
+        fields.iter().fold(0u128, |code, &(name, bits)| code << bits | part(name) & ((1 << bits) - 1))
+    };
+    let words = program.words.iter().map(|word| RomWord {
+        text: word.text.clone(),
+        code: packed(&|name| value(word, name)),
+        used: packed(&|name| used(word, name)),
+    });
+    let words = words.collect();
+    (fields, words)
+}
+
+/// The bits of a part that something depends on.
+fn used(word: &Word, field: &str) -> u128 {
+    let all = |is: bool| if is { u128::MAX } else { 0 };
+    let row = word.step.map(|step| step.row).or(word.factor.map(|(_, row)| row));
+    match field {
+        "target" => all(word.control.place().is_some()),
+        "write_row" | "write_numbered" => all(word.write.is_some()),
+        "only" | "raised" | "whole" | "by_a" | "base" => all(word.step.is_some()),
+        "minus" | "by_side" => all(word.step.is_some_and(|step| step.sign != Sign::ByA)),
+        "mode" => all(row.is_some()),
+        "row" => match row {
+            None => 0,
+            Some(Row::Named(_) | Row::Number(_)) => u128::MAX,
+            Some(Row::Digits(_) | Row::Edge(_)) => !3,
+            Some(Row::Pass(_)) => !1,
+            Some(Row::OfChannel | Row::Vertex(Corner::Place(_), _)) => VERTICES / 2 - 1,
+            Some(Row::Vertex(..)) => (1 << PART_BITS) - 1,
+        },
+        _ => u128::MAX,
+    }
 }
 
 /// A part of the word as a number.
@@ -207,6 +257,7 @@ fn only(only: Only) -> u128 {
         Only::Positive => 2,
         Only::NoUpper => 3,
         Only::Right => 4,
+        Only::Thin => 5,
     }
 }
 

@@ -23,6 +23,10 @@ pub(super) fn connect<'m>(
     let get = |name: &str| word.get(name);
     let only = get("only");
     let allowed = !(only.eq(3) & control.walked[0]) & !(only.eq(4) & !control.right);
+    let allowed = match parts.role {
+        Some([thin, _]) => allowed & !(only.eq(5) & !thin.q()),
+        None => allowed,
+    };
     let steps = (get("steps") & *runs & allowed).named("starts_step");
     let later = |name: &str, signal| parts.later(name, signal);
     let minus = get("minus") ^ (get("by_side") & control.right);
@@ -125,7 +129,9 @@ fn row<'m>(
     let is = |mode: Mode| word.is_mode(mode);
     let of_vertices = is(Mode::Vertex) | is(Mode::Upper) | is(Mode::Lower);
     let numbered = m.cat(&[row.slice(ROW_BITS - 1, 3), row.trunc(3) | control.number]);
-    let with_pass = m.cat(&[row.slice(ROW_BITS - 1, 1), pass]);
+    let side = row.slice(1, 1);
+    let side = parts.role.map_or(side, |[_, flat]| side ^ flat.q());
+    let with_pass = m.cat(&[row.slice(ROW_BITS - 1, 2), side, pass]);
     let named =
         is(Mode::Digits).mux(low(digit), is(Mode::Edge).mux(low(edge), is(Mode::Pass).mux(with_pass, row)));
     let named = is(Mode::Number).mux(numbered, named);
