@@ -287,7 +287,8 @@ fn random_machines_draw_what_their_fragments_come_to() {
     let (mut all, mut fragments, mut kinds) = (Events::default(), 0, [0; 3]);
     for number in 0..600 {
         let width = ["2", "12", "40"][number % 3];
-        let fixed = [("screen.width", width), ("screen.height", width)];
+        // A sequenced SETUP keeps triangles too far apart to meet in flight.
+        let fixed = [("screen.width", width), ("screen.height", width), ("setup.kind", "parallel")];
         let plan = random_machine(&fixed, &mut rng);
         if !plan.blend.is_there() {
             continue;
