@@ -30,6 +30,7 @@ mod names;
 mod normals;
 mod output;
 mod own_pass;
+mod own_rtl;
 mod panes;
 mod pictures;
 mod precision;
