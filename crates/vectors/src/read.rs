@@ -102,7 +102,8 @@ pub fn read(mut load: impl FnMut(&str) -> std::io::Result<Vec<u8>>) -> Result<Ve
     // The name goes into commands of tools.
     let plain = |name: &str| name.chars().all(|c| c.is_ascii_alphanumeric() || "_$".contains(c));
     let top = manifest.dut.as_ref().map(|dut| dut.top.as_str());
-    if let Some(name) = [Some(manifest.module.as_str()), top].into_iter().flatten().find(|name| !plain(name)) {
+    if let Some(name) = [Some(manifest.module.as_str()), top].into_iter().flatten().find(|name| !plain(name))
+    {
         return Err(ReadError::Module { found: name.to_owned() });
     }
     for wanted in &manifest.files {

@@ -17,7 +17,8 @@ use edgewalk_machine::{Plan, Unknown};
 use edgewalk_netlist::Netlist;
 use edgewalk_vectors::dut::Wiring;
 use edgewalk_vectors::{
-    Files, Outcome, Runs, Simulator, StallKind, Suite, Tables, Trace, Unit, design, directory, reached, simulate,
+    Files, Outcome, Runs, Simulator, StallKind, Suite, Tables, Trace, Unit, design, directory, reached,
+    simulate,
 };
 use serde::Serialize;
 use serde_json::json;
@@ -141,14 +142,17 @@ fn ours(args: &Args, machine: &Plan, suites: Vec<Suite>, talk: Talk) -> Result<V
     let done = jobs::all(&work, &bar, |(place, unit)| {
         let suite = &suites[*place];
         let trace = runs[*place].capture(*unit, args.stalls.unwrap_or(suite.stalls));
-        let simulators =
-            if *unit == Unit::MACHINE && IN_BOTH.contains(&suite.name.as_str()) { &Simulator::ALL[..] } else { &ICARUS };
+        let simulators = if *unit == Unit::MACHINE && IN_BOTH.contains(&suite.name.as_str()) {
+            &Simulator::ALL[..]
+        } else {
+            &ICARUS
+        };
         let netlist = edgewalk_lockstep::netlist(machine, *unit)
             .map_err(|e| anyhow!("the netlist cannot be built: {e}"))?;
         let mut checks = vec![against_netlist(&netlist, suite, &trace, &args.out)?];
         if !args.no_simulators {
-            let verilog = design::verilog(machine, *unit)
-                .map_err(|e| anyhow!("the netlist cannot be built: {e}"))?;
+            let verilog =
+                design::verilog(machine, *unit).map_err(|e| anyhow!("the netlist cannot be built: {e}"))?;
             let folder = write(directory(suite, &trace, &verilog, Tables::LeftOut))?;
             for simulator in simulators {
                 let expected = trace.expected();
@@ -239,14 +243,21 @@ fn print(machine: &Plan, own: Option<&Wiring>, checks: &[Check], talk: Talk) -> 
     let json = || {
         let mut report = json!({ "machine": machine.hash(), "checks": checks });
         if let Some(wiring) = own {
-            report["dut"] = json!({ "file": wiring.dut.file, "top": wiring.dut.top, "not_compared": not_compared });
+            report["dut"] =
+                json!({ "file": wiring.dut.file, "top": wiring.dut.top, "not_compared": not_compared });
         }
         document("verify", report)
     };
     let text = || {
         let mut text = format!("machine {}\n", machine.hash());
         if let Some(Wiring { dut, .. }) = own {
-            text = format!("{} of {} beside {} of machine {}\n", dut.top, dut.file, dut.unit.name(), machine.hash());
+            text = format!(
+                "{} of {} beside {} of machine {}\n",
+                dut.top,
+                dut.file,
+                dut.unit.name(),
+                machine.hash()
+            );
         }
         if let Some(names) = not_compared.as_ref().filter(|names| !names.is_empty()) {
             _ = writeln!(text, "not compared: {}", names.join(", "));

@@ -179,7 +179,11 @@ fn identifier(section: &Section, key: &str, name: &str) -> Result<String, DutErr
         return Ok(name.to_owned());
     }
     let found = shown(&Value::String(name.to_owned()));
-    Err(section.error(key, found, "a name of Verilog: letters, digits, _ and $, at most 200, a letter or _ first"))
+    Err(section.error(
+        key,
+        found,
+        "a name of Verilog: letters, digits, _ and $, at most 200, a letter or _ first",
+    ))
 }
 
 fn optional(section: &mut Section, key: &'static str) -> Result<Option<String>, DutError> {
@@ -209,7 +213,8 @@ fn parameters(section: Section) -> Result<Vec<(String, String)>, DutError> {
             Value::Boolean(flag) => u8::from(*flag).to_string(),
             Value::String(text) if plain(text) => format!("\"{text}\""),
             other => {
-                let permitted = "a whole number of 32 bits, true, false, or a text without quotes and backslashes";
+                let permitted =
+                    "a whole number of 32 bits, true, false, or a text without quotes and backslashes";
                 return Err(section.error(&name, shown(other), permitted));
             }
         };

@@ -33,7 +33,11 @@ pub(super) fn folders(section: &Section, list: Vec<String>, folder: &Path) -> Re
     for name in &list {
         let path = folder.join(name);
         if !path.is_dir() {
-            return Err(section.error("include", format!("{name:?}: no such folder"), "folders that are there"));
+            return Err(section.error(
+                "include",
+                format!("{name:?}: no such folder"),
+                "folders that are there",
+            ));
         }
         plain(section, "include", &path)?;
         folders.push(path);
@@ -64,5 +68,7 @@ fn plain(section: &Section, key: &str, path: &Path) -> Result<(), DutError> {
         return Ok(());
     }
     let permitted = "paths of letters, digits and / . _ - + , = @";
-    Err(section.error(key, format!("{text:?}"), permitted).advised("move the files, or make a link to their folder"))
+    Err(section
+        .error(key, format!("{text:?}"), permitted)
+        .advised("move the files, or make a link to their folder"))
 }

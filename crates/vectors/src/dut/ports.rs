@@ -58,11 +58,7 @@ const TOP: &str = "top.json";
 ///
 /// # Errors
 /// A top module or a parameter that is not there; Yosys is missing, refuses the design, or exceeds the limit.
-pub fn ports(
-    dut: &Dut,
-    work: &Path,
-    limit: Duration,
-) -> Result<Option<BTreeMap<String, Found>>, PortsError> {
+pub fn ports(dut: &Dut, work: &Path, limit: Duration) -> Result<Option<BTreeMap<String, Found>>, PortsError> {
     if dut.widths == Widths::Unchecked {
         return Ok(None);
     }
@@ -105,7 +101,9 @@ pub fn ports(
         modules.into_values().find(|module| module.attributes.contains_key("top"))
     });
     let Some(top) = top else {
-        return Err(Stop::Broken { tool: "yosys".to_owned(), lines: vec![format!("it left no {TOP}")] }.into());
+        return Err(
+            Stop::Broken { tool: "yosys".to_owned(), lines: vec![format!("it left no {TOP}")] }.into()
+        );
     };
     let found = |(name, port): (String, Port)| {
         // A port of 2^32 bits is none.

@@ -103,9 +103,7 @@ impl<'a> Section<'a> {
             let path = format!("{path}.{name}");
             match value {
                 Value::Table(entries) => Ok((name, Section { file, path, entries, asked: Vec::new() })),
-                other => {
-                    Err(DutError::new(file, path.clone(), shown(&other), format!("a table, [{path}]")))
-                }
+                other => Err(DutError::new(file, path.clone(), shown(&other), format!("a table, [{path}]"))),
             }
         };
         entries.into_iter().map(of).collect()

@@ -86,6 +86,7 @@ impl Dut {
         check.port("reset.port", &self.reset.port, 1, true, "the reset")?;
         check.channels(interface, Direction::In)?;
         check.channels(interface, Direction::Out)?;
+        check.other_ports(interface)?;
         let mut links = Vec::new();
         for link in &interface.links {
             links.push(check.link(interface, link)?);
@@ -97,7 +98,6 @@ impl Dut {
             Compare::Order => vec![Wire::Absent; status.len()],
             Compare::Cycle => check.singles(interface, &status, false)?,
         };
-        check.other_ports(interface)?;
         check.ties()?;
         let out = interface.links.iter().zip(&links).filter(|(link, _)| link.direction == Direction::Out);
         let fields = out.flat_map(|(link, ends)| link.fields.iter().zip(&ends.fields));
@@ -126,19 +126,29 @@ struct Check<'a> {
 }
 
 impl Check<'_> {
-    fn error(&self, key: impl Into<String>, found: impl Into<String>, permitted: impl Into<String>) -> DutError {
+    fn error(
+        &self,
+        key: impl Into<String>,
+        found: impl Into<String>,
+        permitted: impl Into<String>,
+    ) -> DutError {
         DutError::new(&self.dut.file, key, found, permitted)
     }
 
     /// A port of the design; gives the bits that it has above the value of `what`.
     fn port(&mut self, key: &str, name: &str, width: u32, input: bool, what: &str) -> Result<u32, DutError> {
         if let Some(other) = self.used.insert(name.to_owned(), key.to_owned()) {
-            return Err(self.error(key, format!("port {name}, which stands for {other}"), "a port of its own"));
+            return Err(self.error(
+                key,
+                format!("port {name}, which stands for {other}"),
+                "a port of its own",
+            ));
         }
         let Some(ports) = self.found else { return Ok(0) };
         let way = |input: bool| if input { "input" } else { "output" };
         let Some(found) = ports.get(name) else {
-            let names: Vec<&str> = ports.iter().filter(|(_, p)| p.input == input).map(|(n, _)| n.as_str()).collect();
+            let names: Vec<&str> =
+                ports.iter().filter(|(_, p)| p.input == input).map(|(n, _)| n.as_str()).collect();
             let said = format!("{} has no port {name} for {what}", self.dut.top);
             return Err(DutError::unknown(&self.dut.file, key, said, name, names));
         };
@@ -248,11 +258,20 @@ impl Check<'_> {
     }
 
     /// A field that a memory of the bench needs must be there.
-    fn may_be_absent(&self, interface: &Interface, link: &Link, port: &Port, table: &str) -> Result<(), DutError> {
+    fn may_be_absent(
+        &self,
+        interface: &Interface,
+        link: &Link,
+        port: &Port,
+        table: &str,
+    ) -> Result<(), DutError> {
         let of = |place: usize, field: usize| &interface.links[place].fields[field].name;
         let needs = interface.memories.iter().flat_map(|memory| {
             let write = memory.write.iter().flat_map(move |write| {
-                [Some(write.address), Some(write.word), write.enable].into_iter().flatten().map(move |f| (write.link, f))
+                [Some(write.address), Some(write.word), write.enable]
+                    .into_iter()
+                    .flatten()
+                    .map(move |f| (write.link, f))
             });
             write.chain([(memory.read, 0)]).map(move |(link, field)| (of(link, field), memory.name))
         });
@@ -344,16 +363,22 @@ impl Check<'_> {
             }
             let Some(ports) = self.found else { continue };
             let Some(found) = ports.get(name).filter(|found| found.input) else {
-                let inputs: Vec<&str> = ports.iter().filter(|(_, p)| p.input).map(|(n, _)| n.as_str()).collect();
+                let inputs: Vec<&str> =
+                    ports.iter().filter(|(_, p)| p.input).map(|(n, _)| n.as_str()).collect();
                 let said = format!("{} has no input {name}", self.dut.top);
                 return Err(DutError::unknown(&self.dut.file, key, said, name, inputs));
             };
             if found.width < 64 && value >> found.width != 0 {
-                let permitted = format!("0 to {}, as the port has {} bits", (1u64 << found.width) - 1, found.width);
+                let permitted =
+                    format!("0 to {}, as the port has {} bits", (1u64 << found.width) - 1, found.width);
                 return Err(self.error(key, value.to_string(), permitted));
             }
         }
-        let mut open = self.found.into_iter().flatten().filter(|(name, port)| port.input && !self.used.contains_key(*name));
+        let mut open = self
+            .found
+            .into_iter()
+            .flatten()
+            .filter(|(name, port)| port.input && !self.used.contains_key(*name));
         match open.next() {
             None => Ok(()),
             Some((name, _)) => {

@@ -99,7 +99,10 @@ pub fn simulate(
                 compile.args(["-Wno-fatal", "--timescale", "1ns/1ps"]);
             }
             // The C++ runs for a moment only: to optimise it takes longer.
-            compile.arg("--Mdir").arg(&objects).args(["-MAKEFLAGS", "OPT_FAST=-O0 OPT_SLOW=-O0 OPT_GLOBAL=-O0"]);
+            compile
+                .arg("--Mdir")
+                .arg(&objects)
+                .args(["-MAKEFLAGS", "OPT_FAST=-O0 OPT_SLOW=-O0 OPT_GLOBAL=-O0"]);
             run(compile.current_dir(directory), limit)?;
             run(Command::new(objects.join("Vtb")).current_dir(directory), limit)?
         }

@@ -1,10 +1,10 @@
 //! The manifest of a trace.
 
+use super::dut;
 use super::{
     Files, Tables, cycle_file, is_served, known, params, patterns, start_file, status_fields, table_file,
     token_file, triangle_file, willing_file,
 };
-use super::dut;
 use crate::capture::Trace;
 use crate::dut::Wiring;
 use crate::manifest::{

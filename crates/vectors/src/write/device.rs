@@ -40,7 +40,8 @@ pub fn reference(interface: &Interface) -> Device {
     ports.extend(interface.constants.iter().map(constant));
     ports.extend(interface.levels.iter().map(|field| format!("{0}({0})", field.name)));
     widths.extend(interface.constants.iter().chain(&interface.levels).map(of));
-    let status: Vec<String> = interface.status.iter().map(|status| format!("{0}({0})", status.port.name)).collect();
+    let status: Vec<String> =
+        interface.status.iter().map(|status| format!("{0}({0})", status.port.name)).collect();
     let module = interface.unit.module();
     Device {
         instance: instance(&module, "", &ports, &status),
@@ -115,8 +116,10 @@ pub fn own(interface: &Interface, wiring: &Wiring) -> Device {
         }
     }
     let status = own.ports.split_off(connected);
-    let parameters: Vec<String> = dut.parameters.iter().map(|(name, value)| format!(".{name}({value})")).collect();
-    let parameters = if parameters.is_empty() { String::new() } else { format!("#({}) ", parameters.join(", ")) };
+    let parameters: Vec<String> =
+        dut.parameters.iter().map(|(name, value)| format!(".{name}({value})")).collect();
+    let parameters =
+        if parameters.is_empty() { String::new() } else { format!("#({}) ", parameters.join(", ")) };
     Device {
         module: dut.top.clone(),
         resets: (cycles.to_string(), u32::BITS - cycles.leading_zeros()),
@@ -144,7 +147,10 @@ impl Own {
         match (&ends.ready, link.direction) {
             (Some(ready), _) => self.connect(ready, 1, &format!("{name}_ready")),
             (None, Direction::In) => {
-                let _ = writeln!(self.text, "    assign {name}_ready = 1'b1; // the design takes every token at once");
+                let _ = writeln!(
+                    self.text,
+                    "    assign {name}_ready = 1'b1; // the design takes every token at once"
+                );
             }
             (None, Direction::Out) => {}
         }
@@ -160,7 +166,8 @@ impl Own {
         }
         if let Some(packed) = &ends.packed {
             let parts: Vec<&str> = packed.order.iter().map(|place| places[*place].1.as_str()).collect();
-            let width = packed.order.iter().map(|place| link.fields[*place].width()).sum::<u32>() + packed.above;
+            let width =
+                packed.order.iter().map(|place| link.fields[*place].width()).sum::<u32>() + packed.above;
             let parts = parts.join(", ");
             match (link.direction, packed.above) {
                 (_, 0) => self.connect(&packed.name, width, &format!("{{{parts}}}")),
@@ -200,7 +207,9 @@ impl Own {
             0 => value.to_owned(),
             above if port.is_signed() => {
                 // The highest bit of the part: `x_token[9:4]` has `x_token[9]`.
-                let sign = value.split_once(':').map_or_else(|| format!("{value}[{top}]"), |(high, _)| format!("{high}]"));
+                let sign = value
+                    .split_once(':')
+                    .map_or_else(|| format!("{value}[{top}]"), |(high, _)| format!("{high}]"));
                 format!("{{{{{above}{{{sign}}}}}, {value}}}")
             }
             above => format!("{{{above}'b0, {value}}}"),

@@ -18,7 +18,8 @@ impl Sources<'_> {
         let include = self.dut.into_iter().flat_map(|dut| &dut.include);
         let include = include.map(|folder| format!("+incdir+{}", folder.display()));
         let bench = self.bench().into_iter().map(str::to_owned);
-        let lines = ["+incdir+.".to_owned()].into_iter().chain(include).chain(self.hdl.iter().cloned()).chain(bench);
+        let lines =
+            ["+incdir+.".to_owned()].into_iter().chain(include).chain(self.hdl.iter().cloned()).chain(bench);
         lines.map(|line| line + "\n").collect()
     }
 
@@ -44,10 +45,13 @@ impl Sources<'_> {
             .replace("{standard}", self.dut.map_or("2001", Dut::standard))
             .replace("{include}", &self.dut.map(include).unwrap_or_default())
             .replace("{parameters}", &self.dut.map(parameters).unwrap_or_default())
-            .replace("{how}", match self.dut.map(|dut| dut.compare) {
-                Some(Compare::Order) => "order and values count",
-                _ => "order, values, cycles and status ports count",
-            })
+            .replace(
+                "{how}",
+                match self.dut.map(|dut| dut.compare) {
+                    Some(Compare::Order) => "order and values count",
+                    _ => "order, values, cycles and status ports count",
+                },
+            )
             .replace("{top}", self.top)
             .replace("{hdl}", &self.hdl.join(" "))
             .replace("{bench}", &self.bench().join(" "))
