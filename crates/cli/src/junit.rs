@@ -2,7 +2,7 @@
 
 /// A test and how it ended.
 pub struct Case {
-    /// Its name.
+    /// Name of the test.
     pub name: String,
     /// Where it failed: a line, and what was found.
     pub failure: Option<(String, String)>,

@@ -110,8 +110,8 @@ const FAULTS: [Fault; 12] = [
     fault("my_pixel.v", "z[ZW-1-:24]", "z[ZW-2-:24]", "flat_top", "frag_z: expected "),
     fault(
         "my_pixel.v",
-        "m_valid <= stage_valid;",
-        "m_valid <= stage_valid && m_ready;",
+        "stage_valid <= 1'b1;",
+        "stage_valid <= pixels != 1;",
         "flat_top",
         " never came, the first of ",
     ),
@@ -207,7 +207,11 @@ const REFUSED: [(&str, &str, &str); 36] = [
     ("[\"my_pixel.v\"]", "[\"my_pixel.v\", 3]", "files: [\"my_pixel.v\", 3]; permitted: a list of texts"),
     ("[\"my_pixel.v\"]", "[\"pixel.toml\"]", "permitted: *.v, *.sv"),
     ("[\"my_pixel.v\"]", "[\"my_pixel.v\"]\ninclude = [\"inc\"]", "include: \"inc\": no such folder"),
-    ("clock = \"aclk\"", "clok = \"aclk\"", "clock: my_pixel has no port clk for the clock; permitted: "),
+    (
+        "clock = \"aclk\"",
+        "clok = \"aclk\"",
+        "clok: unknown key, clok = \"aclk\"; permitted: unit, top, files, ",
+    ),
     ("clock = \"aclk\"", "clock = \"aclck\"", "nearest: aclk"),
     ("active = \"low\"", "active = \"lo\"", "reset.active: \"lo\"; permitted: high, low; nearest: low"),
     (
@@ -344,8 +348,8 @@ fn a_design_that_does_not_fit_is_refused() {
         ),
         (
             "depth.toml",
-            "depth_func = \"func\"",
-            "absent = [\"depth_func\"]\n[tie]\nfunc = 9",
+            "depth_func = \"func\"\ndepth_write = \"z_write\"",
+            "depth_write = \"z_write\"\nabsent = [\"depth_func\"]\n[tie]\nfunc = 9",
             "tie.func: 9; permitted: 0 to 7, as the port has 3 bits",
         ),
     ] {
@@ -389,7 +393,7 @@ fn vectors_are_wired_to_the_design() {
     );
     assert_eq!(manifest["dut"]["ports"]["span_count"]["port"], "s_pixels");
     assert_eq!(manifest["expected"], 350);
-    edit(folder.path(), "my_pixel.v", "column < 640", "column < 20");
+    edit(folder.path(), "my_pixel.v", "dr <= step_r", "dr <= step_g");
     let (passed, said) = made(folder.path(), "v/hazards_pixel", &["icarus"]);
     assert!(!passed && said.lines().any(|line| line == "FAIL"), "{said}");
 }

@@ -110,15 +110,15 @@ pub struct MachineInfo {
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct DutInfo {
-    /// Its top module.
+    /// The top module.
     pub top: String,
-    /// Its files, absolute.
+    /// The design's files, absolute.
     pub files: Vec<String>,
     /// Folders for its include lines, absolute.
     pub include: Vec<String>,
-    /// Its clock, of which the rising edge counts.
+    /// The clock port, of which the rising edge counts.
     pub clock: String,
-    /// Its reset.
+    /// The reset.
     pub reset: ResetInfo,
     /// `order`: values and their order count; `cycle`: cycles and status ports too.
     pub compare: String,
@@ -152,9 +152,9 @@ pub struct ResetInfo {
 pub struct Place {
     /// The port.
     pub port: String,
-    /// Its lowest bit there.
+    /// The value's lowest bit in the port.
     pub lsb: u32,
-    /// Its bits there, those of its extension among them.
+    /// The value's bits in the port, with those of the extension.
     pub width: u32,
 }
 

@@ -15,15 +15,15 @@ pub struct Dut {
     pub file: String,
     /// What it stands for.
     pub unit: Unit,
-    /// Its top module.
+    /// The top module.
     pub top: String,
-    /// Its files, absolute.
+    /// The design's files, absolute.
     pub files: Vec<PathBuf>,
     /// Folders for its include lines, absolute.
     pub include: Vec<PathBuf>,
-    /// Its clock; the rising edge counts.
+    /// The clock port; the rising edge counts.
     pub clock: String,
-    /// Its reset.
+    /// The reset.
     pub reset: Reset,
     /// How its outputs are compared.
     pub compare: Compare,
@@ -52,7 +52,7 @@ pub struct Reset {
     pub port: String,
     /// 0 resets.
     pub active_low: bool,
-    /// It acts without a clock. The bench then releases it between two edges.
+    /// Whether the reset acts without a clock. The bench then releases it between two edges.
     pub asynchronous: bool,
     /// Clocks for which it is held.
     pub cycles: u32,
@@ -70,7 +70,7 @@ pub enum Compare {
 /// What happens to ports of another width than their values.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Widths {
-    /// They are refused.
+    /// A port of another width is refused.
     Equal,
     /// A wider port takes and gives its values extended, by the sign where they have one.
     Extend,

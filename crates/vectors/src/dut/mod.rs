@@ -13,8 +13,10 @@ mod files;
 mod file;
 mod ports;
 mod wiring;
+mod stand_in;
 
 pub use error::DutError;
 pub use file::{Channel, Compare, Dut, Reset, Widths};
 pub use ports::{Found, PortsError, ports};
+pub use stand_in::stand_in;
 pub use wiring::{Ends, Packed, Wire, Wiring};

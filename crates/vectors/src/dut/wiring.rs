@@ -11,7 +11,7 @@ use std::collections::BTreeMap;
 pub enum Wire {
     /// A port, with so many bits above the value.
     Port {
-        /// Its name.
+        /// Name of the port.
         name: String,
         /// Bits above the value: its sign, or 0.
         above: u32,
@@ -25,7 +25,7 @@ pub enum Wire {
 /// One port for several fields of a channel.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Packed {
-    /// Its name.
+    /// Name of the port.
     pub name: String,
     /// Bits above the fields, 0.
     pub above: u32,
@@ -59,6 +59,8 @@ pub struct Wiring {
     pub levels: Vec<Wire>,
     /// For each status port of the unit; none is there where only the order counts.
     pub status: Vec<Wire>,
+    /// The ports that the design has, if they are known.
+    pub found: Option<BTreeMap<String, Found>>,
     not_compared: Vec<String>,
 }
 
@@ -104,7 +106,8 @@ impl Dut {
         let ports = fields.chain(interface.status.iter().map(|status| &status.port).zip(&status));
         let absent = ports.filter(|(_, wire)| **wire == Wire::Absent).map(|(port, _)| port.name.clone());
         let not_compared = absent.collect();
-        Ok(Wiring { dut: self, links, constants, levels, status, not_compared })
+        let found = found.cloned();
+        Ok(Wiring { dut: self, links, constants, levels, status, found, not_compared })
     }
 }
 

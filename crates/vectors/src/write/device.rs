@@ -6,7 +6,7 @@ use std::fmt::Write as _;
 
 /// What the bench writes for a design.
 pub struct Device {
-    /// Its module.
+    /// Name of the design's module.
     pub module: String,
     /// The reset that the bench gives: text of the clocks, bits of their counter.
     pub resets: (String, u32),

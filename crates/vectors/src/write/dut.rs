@@ -37,7 +37,7 @@ pub fn info(interface: &Interface, wiring: &Wiring) -> DutInfo {
     }
 }
 
-/// Its clock and reset in words.
+/// Clock and reset of the design in words.
 pub fn clock_and_reset(wiring: &Wiring) -> (String, String) {
     let reset = &wiring.dut.reset;
     let kind = if reset.asynchronous { "asynchronous" } else { "synchronous" };

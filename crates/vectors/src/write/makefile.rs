@@ -4,9 +4,9 @@ use crate::dut::{Compare, Dut};
 
 /// The design that a directory is for.
 pub struct Sources<'a> {
-    /// Its top module.
+    /// The top module.
     pub top: &'a str,
-    /// Its files.
+    /// The design's files.
     pub hdl: Vec<String>,
     /// A user's design: what else is to be known of it.
     pub dut: Option<&'a Dut>,
