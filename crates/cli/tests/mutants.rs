@@ -67,11 +67,11 @@ fn a_bench_is_scored_from_outside() {
     let theirs = [&sample[..], &["--in", "c/hazards_pixel", "--bench", MAKE, "--out", "theirs"]].concat();
     let less = report(folder.path(), &theirs);
     assert!(
-        less["share"].as_f64().expect("a number") < outside["share"].as_f64().expect("a number") - 20.0,
+        less["share"].as_f64().expect("a number") < outside["share"].as_f64().expect("a number") - 10.0,
         "{less}"
     );
     let only_theirs: Vec<String> = survivors(&less).difference(&survivors(&outside)).cloned().collect();
-    assert!(only_theirs.len() > 3, "{less}");
+    assert!(only_theirs.len() >= 2, "{less}");
     let shown = less["survivors"].as_array().expect("a list").iter();
     let lines = |survivor: &Value, way: &str| survivor[way].as_array().map_or(0, Vec::len);
     assert!(shown.clone().all(|s| lines(s, "with") + lines(s, "without") > 0), "{less}");

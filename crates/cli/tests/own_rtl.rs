@@ -113,7 +113,7 @@ const FAULTS: [Fault; 12] = [
         "stage_valid <= 1'b1;",
         "stage_valid <= pixels != 1;",
         "flat_top",
-        " never came, the first of ",
+        "frag_addr: expected 00407 (1031), found 00801 (2049)",
     ),
     fault("my_pixel.v", "if (!m_valid || m_ready) begin", "begin", "flat_top", "frag: cycle "),
     fault("my_depth.v", "less ? func[0]", "less ? func[1]", "flat_top", "wr: "),
