@@ -17,8 +17,10 @@ mod fast;
 mod fast_phong;
 mod input;
 mod jobs;
+mod junit;
 mod lamps;
 mod machine_args;
+mod own;
 mod picture;
 mod pictures;
 mod progress;
@@ -35,8 +37,8 @@ mod verdict;
 use anyhow::{Result, anyhow};
 use clap::{Parser, Subcommand};
 use commands::{
-    bench, compare, config, demo, emit, explain, gallery, judge, raster, render, replay, size, sweep, synth,
-    trace, vectors, verify,
+    bench, compare, config, demo, emit, explain, gallery, judge, mutants, raster, render, replay, size,
+    sweep, synth, trace, vectors, verify,
 };
 use machine_args::MachineArgs;
 use std::io::Write as _;
@@ -86,6 +88,7 @@ enum Command {
     Emit(emit::Args),
     Vectors(vectors::Args),
     Verify(verify::Args),
+    Mutants(mutants::Args),
     Trace(trace::Args),
     Replay(replay::Args),
     Synth(synth::Args),
@@ -138,6 +141,7 @@ fn run(cli: &Cli, talk: Talk) -> Result<Verdict> {
         Command::Emit(a) => emit::run(a, &cli.machine, talk),
         Command::Vectors(a) => vectors::run(a, &cli.machine, talk),
         Command::Verify(a) => verify::run(a, &cli.machine, talk),
+        Command::Mutants(a) => mutants::run(a, &cli.machine, talk),
         Command::Trace(a) => trace::run(a, &cli.machine, talk),
         Command::Replay(a) => replay::run(a, &cli.machine, talk),
         Command::Synth(a) => synth::run(a, &cli.machine, talk),

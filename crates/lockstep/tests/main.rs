@@ -11,6 +11,7 @@ mod lights;
 mod memory;
 mod own_pass;
 mod polygon;
+mod rom;
 mod sequenced;
 mod stalls;
 mod tables;

@@ -152,7 +152,8 @@ fn machines(count: usize) {
     let mut all = Checked::default();
     for number in 0..count {
         let mut drawn = std::iter::repeat_with(|| random_poly(&mut rng));
-        let plan = drawn.find(|plan| number % 8 == 0 || !plan.shade.is_there()).expect("half of them have none");
+        let plan =
+            drawn.find(|plan| number % 8 == 0 || !plan.shade.is_there()).expect("half of them have none");
         let port = Triangles::new(&plan);
         let interface = Interface::new(&plan, Unit::MACHINE);
         let mut case = Case { seed: number as u64, ..Case::new(&plan, Unit::MACHINE) };

@@ -85,7 +85,8 @@ fn alone(unit: Unit, seed: u64) {
 fn every_unit_alone() {
     std::thread::scope(|scope| {
         let poly = Unit::named("poly").expect("declared");
-        for (seed, unit) in (11..).zip(Unit::known().skip(1).filter(|unit| *unit != poly)).chain([(99, poly)]) {
+        for (seed, unit) in (11..).zip(Unit::known().skip(1).filter(|unit| *unit != poly)).chain([(99, poly)])
+        {
             scope.spawn(move || alone(unit, seed));
         }
     });

@@ -35,7 +35,10 @@ pub fn random_tokens(plan: &Plan, unit: Unit, count: usize, rng: &mut Pcg64Mcg) 
 fn triangles(plan: &Plan, count: usize, rng: &mut Pcg64Mcg) -> Vec<Token> {
     let port = Triangles::new(plan);
     if plan.polygon.is_there() {
-        return primitives(plan, count, rng).iter().map(|triangle| port.pack(triangle, rng.random())).collect();
+        return primitives(plan, count, rng)
+            .iter()
+            .map(|triangle| port.pack(triangle, rng.random()))
+            .collect();
     }
     (0..count).map(|_| port.pack(&random_primitive(plan, rng), rng.random())).collect()
 }
