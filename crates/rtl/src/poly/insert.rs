@@ -90,7 +90,7 @@ impl<'a, 'm> Inserts<'a, 'm> {
         let gap = m.reg("gap", tables.index).doc("the place that is free");
         let end = count.q().trunc(tables.index);
         let before_gap = (moving.q().mux(gap.q() - 1, end - 1) - 1).named("before_gap");
-        let word = tables.word(tables.lists.read(m.lit(1, 1), tables.at(comes.list, before_gap)));
+        let word = tables.word(tables.lists.read(valid.q(), tables.at(comes.list, before_gap)));
         let shifts = gap.q().any() & edge.q().key.slt(word.key);
         let shifts = (moving.q() & shifts).named("shifts");
         let leaves = (valid.q() & !moves & !shifts).named_doc("placed", "the edge has its place");

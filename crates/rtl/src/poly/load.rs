@@ -4,7 +4,7 @@ use edgewalk_machine::units::tokens::EDGES;
 use edgewalk_netlist::{Module, Signal};
 
 use super::table::{Tables, Word};
-use crate::stepping::first_rest;
+use crate::stepping::{first_rest, parts_of_edge};
 use crate::wires::Token;
 
 /// What LOAD reads of the rest of POLY.
@@ -43,6 +43,8 @@ struct Side<'m> {
     edge: &'static str,
     first: Signal<'m>,
     lines: Signal<'m>,
+    /// There are some.
+    some: Signal<'m>,
 }
 
 impl<'m> Load<'m> {
@@ -59,7 +61,7 @@ impl<'m> Load<'m> {
 
         let sides = sides(prim);
         let is_left = |number: u32| {
-            let counts = prim["sides"].bit(number) & sides[number as usize].lines.any();
+            let counts = prim["sides"].bit(number) & sides[number as usize].some;
             (counts & !did.q().bit(number)).named(&format!("{}_left", EDGES[number as usize]))
         };
         let [major, minor1, minor2] = [0, 1, 2].map(is_left);
@@ -72,7 +74,9 @@ impl<'m> Load<'m> {
         };
         let first = chosen(&|side| side.first).named("first_line");
         let lines = chosen(&|side| side.lines).named("lines");
+        let parts = parts_of_edge(&prim.parts());
         let part = |name: &str| chosen(&|side| prim[format!("{}_{name}", side.edge).as_str()]);
+        let edge = Token::new(parts, |name| part(name).named(&format!("loaded_{name}")));
 
         let closes = prim["ends"];
         let prim_ready = !putting.q() & !any_left & !(closes & (walking | fresh_queued));
@@ -87,11 +91,11 @@ impl<'m> Load<'m> {
         let full = edges.q().msb();
         over.when(takes & full, 1).when(closes, 0);
         let stores = (takes & !full).named("stores");
-        let place = tables.at(bank.q(), edges.q());
-        tables.steps.write(stores, place, tables.joined_steps(part));
-        let rest = first_rest(part("r"), part("f")).named_doc("first_rest", "R - f, signed");
+        let place = tables.at(bank.q(), edges.q()).named("load_place");
+        tables.steps.write(stores, place, tables.joined_steps(&edge));
+        let rest = first_rest(edge["r"], edge["f"]).named_doc("first_rest", "R - f, signed");
 
-        let order = Order { m, tables, bank: bank.q(), edges: edges.q(), putting: putting.q() };
+        let order = Order { m, tables, prim_valid, bank: bank.q(), edges: edges.q(), putting: putting.q() };
         let Ordered { appends, inserts, ended } = order.sort(stores, first);
         putting.when(ended, 0).when(inserts, 1);
         edges.when(appends | ended, edges.q() + 1).when(closes, 0);
@@ -106,14 +110,22 @@ fn sides<'m>(prim: &Token<'m>) -> [Side<'m>; 3] {
     let (first, upper, lower) = (prim["jm"], prim["n1"], prim["n2"]);
     let all = (upper + lower).named("all_lines");
     let knee = (first + upper.trunc(first.width())).named_doc("knee", "first line of the lower part");
-    let side = |edge: usize, first: Signal<'m>, lines: Signal<'m>| Side { edge: EDGES[edge], first, lines };
-    [side(0, first, all), side(1, first, upper), side(2, knee, lower)]
+    let side = |edge: usize, first: Signal<'m>, lines: Signal<'m>, some: Signal<'m>| Side {
+        edge: EDGES[edge],
+        first,
+        lines,
+        some,
+    };
+    // Whether the major edge has lines does not wait for their sum.
+    let some = [upper.any() | lower.any(), upper.any(), lower.any()];
+    [side(0, first, all, some[0]), side(1, first, upper, some[1]), side(2, knee, lower, some[2])]
 }
 
 /// The order list of the half that is loaded.
 struct Order<'a, 'm> {
     m: &'m Module,
     tables: &'a Tables<'m>,
+    prim_valid: Signal<'m>,
     bank: Signal<'m>,
     edges: Signal<'m>,
     putting: Signal<'m>,
@@ -132,7 +144,7 @@ struct Ordered<'m> {
 impl<'m> Order<'_, 'm> {
     /// Sorts an edge in by its first line: of equal lines the earlier edge stays first.
     fn sort(&self, stores: Signal<'m>, first: Signal<'m>) -> Ordered<'m> {
-        let Order { m, tables, bank, edges, putting } = *self;
+        let Order { m, tables, prim_valid, bank, edges, putting } = *self;
         m.comment("The order list: those that begin later move up, a clock each.");
         let last = m.reg("last_first", tables.line).doc("first line of the last edge of the list");
         let position = m.reg("position", tables.index).doc("the place that is free");
@@ -147,7 +159,7 @@ impl<'m> Order<'_, 'm> {
         // The edge's own number is that of the edges before it, until it is put.
         let put = Word { key: line.q(), index: own.index };
         let below = (putting.mux(position.q() - 1, edges.trunc(tables.index)) - 1).named("below");
-        let word = tables.word(tables.order.read(m.lit(1, 1), tables.at(bank, below)));
+        let word = tables.word(tables.order.read(prim_valid, tables.at(bank, below)));
         let moves = (putting & before & word.key.gt(line.q())).named("moves_up");
         let ended = (putting & !moves).named("ended");
         last.when(appends, first);

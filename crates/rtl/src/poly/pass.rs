@@ -83,7 +83,7 @@ impl<'m> Pass<'m> {
         let head = inserts.head.q();
         let index = b_valid.q().mux(b.index, entry.enters.mux(entry.index, head.index)).named("next_index");
         let column = b_valid.q().mux(b.key, head.key);
-        let place = tables.at(!load.bank, index);
+        let place = tables.at(!load.bank, index).named("read_place");
         let steps = tables.parts_of_steps(tables.steps.read(advance, place));
         let record = tables.rests.read(advance, place);
         let lines_left = record.trunc(tables.line + 1).named("lines_left");
@@ -203,8 +203,8 @@ impl<'m> Entry<'m> {
         let on_next = first.key.eq(y.q() + 1).named("begins_on_next");
         let enters = (run.q() & !b_valid.q() & some & on_next).named("enters");
         let taken = (advance & enters).named("entered");
-        waiting.when(taken, waiting.q() - 1).when(load.begins, load.edges);
-        behind.when(taken, behind.q() + 1).when(load.begins, 1);
+        waiting.when(taken, waiting.q() - 1).when(!run.q(), load.edges);
+        behind.when(taken, behind.q() + 1).when(!run.q(), 1);
         let place = behind.q() & run.q().sext(tables.index);
         let place = tables.at(load.bank ^ run.q(), place);
         word.drive(tables.order.read(!run.q() | taken, place));

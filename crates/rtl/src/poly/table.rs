@@ -83,8 +83,8 @@ impl<'m> Tables<'m> {
     }
 
     /// A word of `steps` from its parts.
-    pub fn joined_steps(&self, part: impl Fn(&str) -> Signal<'m>) -> Signal<'m> {
-        let parts: Vec<Signal<'m>> = self.parts.iter().map(|of| part(&of.name)).collect();
+    pub fn joined_steps(&self, edge: &Token<'m>) -> Signal<'m> {
+        let parts: Vec<Signal<'m>> = self.parts.iter().map(|of| edge[of.name.as_str()]).collect();
         self.m.cat(&parts)
     }
 
