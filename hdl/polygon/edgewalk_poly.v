@@ -1,0 +1,679 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+// edgewalk 0.1.0, machine a2dbd3f4d826
+
+// edgewalk_poly: POLY walks all edges of a polygon from line to line, a pair of them a span.
+//
+//   prim ─> LOAD ─> [edge table] ──────> PASS ─pair─> MOVER ─> line
+//             └──> [order list] ───────> │ ^            └────> inc, held for PIXEL
+//                  [active list of y] ─> B C D ─> [active list of y + 1]
+//
+// LOAD writes the edges of a polygon to one half of the table, and their numbers to the order list, by their first lines.
+// PASS goes through the active list of a line: each pair of columns is a span, each edge steps to the next line and goes
+// into its list, by its column. MOVER takes the values along, by d0 from line to line, by g from column to column.
+//
+// Timing: a line of n edges takes n + 2 clocks, an edge that enters 1 more, one that goes before m others m + 1 more.
+// MOVER takes a clock a line down, one for each bit of the number of columns, and one more.
+// Rules: a step takes f from R; where R is too small M is added back and the column goes one further (carry).
+// R - f is what is kept, so that its sign says whether the step carries.
+// A polygon of more edges than the table has places is refused: nothing of it is drawn.
+
+`timescale 1ns / 1ps
+`default_nettype none
+
+module edgewalk_poly (
+  input  wire        clk,
+  input  wire        rst,
+
+  input  wire        prim_valid,
+  input  wire  [8:0] prim_jm,           // first line
+  input  wire  [9:0] prim_n1,           // lines of the upper part
+  input  wire  [9:0] prim_n2,           // lines of the lower part
+  input  wire        prim_major_right,  // the major edge is the right one
+  input  wire  [2:0] prim_sides,        // major, first and second minor edge count, a bit each
+  input  wire        prim_ends,         // the last edges of a polygon, with its plane
+  input  wire        prim_void,         // the plane has no area: nothing is drawn
+  input  wire  [9:0] prim_start_x,      // column of the pixel at which values start
+  input  wire  [8:0] prim_start_y,      // its line, the first that is drawn
+  input  wire [14:0] prim_major_c,      // signed, first column right of the edge
+  input  wire [21:0] prim_major_r,      // distance from the edge to that column, 1/M column
+  input  wire [14:0] prim_major_q,      // signed, whole columns a line, step of c
+  input  wire [21:0] prim_major_f,      // 1/M column a line
+  input  wire [21:0] prim_major_m,      // modulus of r and f: the edge's height, 1/P line
+  input  wire [14:0] prim_minor1_c,     // signed, first column right of the edge
+  input  wire [21:0] prim_minor1_r,     // distance from the edge to that column, 1/M column
+  input  wire [14:0] prim_minor1_q,     // signed, whole columns a line, step of c
+  input  wire [21:0] prim_minor1_f,     // 1/M column a line
+  input  wire [21:0] prim_minor1_m,     // modulus of r and f: the edge's height, 1/P line
+  input  wire [14:0] prim_minor2_c,     // signed, first column right of the edge
+  input  wire [21:0] prim_minor2_r,     // distance from the edge to that column, 1/M column
+  input  wire [14:0] prim_minor2_q,     // signed, whole columns a line, step of c
+  input  wire [21:0] prim_minor2_f,     // 1/M column a line
+  input  wire [21:0] prim_minor2_m,     // modulus of r and f: the edge's height, 1/P line
+  input  wire [37:0] prim_z_start,      // UQ24.14 LSB, modular, value at pixel (start_x, start_y)
+  input  wire [37:0] prim_z_d0,         // UQ24.14 LSB, modular, step to the next line
+  input  wire [37:0] prim_z_g,          // UQ24.14 LSB, modular, step to the next pixel to the right
+  input  wire [21:0] prim_r_start,      // UQ8.14 LSB, modular, value at pixel (start_x, start_y)
+  input  wire [21:0] prim_r_d0,         // UQ8.14 LSB, modular, step to the next line
+  input  wire [21:0] prim_r_g,          // UQ8.14 LSB, modular, step to the next pixel to the right
+  input  wire [21:0] prim_g_start,      // UQ8.14 LSB, modular, value at pixel (start_x, start_y)
+  input  wire [21:0] prim_g_d0,         // UQ8.14 LSB, modular, step to the next line
+  input  wire [21:0] prim_g_g,          // UQ8.14 LSB, modular, step to the next pixel to the right
+  input  wire [21:0] prim_b_start,      // UQ8.14 LSB, modular, value at pixel (start_x, start_y)
+  input  wire [21:0] prim_b_d0,         // UQ8.14 LSB, modular, step to the next line
+  input  wire [21:0] prim_b_g,          // UQ8.14 LSB, modular, step to the next pixel to the right
+  input  wire        line_ready,
+  input  wire        fresh_queued,      // the polygon before has not reached PIXEL yet
+
+  output wire        prim_ready,
+  output wire        line_valid,
+  output reg   [8:0] line_y,            // line
+  output reg  [14:0] line_cmaj,         // signed, first column right of the major edge
+  output reg  [14:0] line_cmin,         // signed, first column right of the minor edge
+  output wire        line_major_right,  // the major edge is the right one
+  output reg  [37:0] line_z,            // UQ24.14 LSB, modular
+  output reg  [21:0] line_r,            // UQ8.14 LSB, modular
+  output reg  [21:0] line_g,            // UQ8.14 LSB, modular
+  output reg  [21:0] line_b,            // UQ8.14 LSB, modular
+  output reg         line_fresh,        // first line of the triangle
+  output wire        line_fence,        // fragments in flight may lie on the same pixels
+  output reg  [37:0] inc_z,             // UQ24.14 LSB, modular
+  output reg  [21:0] inc_r,             // UQ8.14 LSB, modular
+  output reg  [21:0] inc_g,             // UQ8.14 LSB, modular
+  output reg  [21:0] inc_b,             // UQ8.14 LSB, modular
+  output wire        walking,           // a polygon is walked, or its last span waits
+  output wire        refused            // a polygon ends here that has more edges than the table: nothing of it is drawn
+);
+
+  wire pass_writes;  // PASS writes a record
+
+  // The table of edges and the lists. A half of each is read while the other is written.
+  reg [73:0] steps [0:127];  // of each edge c, q, f, m, as in the prim
+  reg [32:0] rests [0:127];  // of each edge R - f, signed, and the lines left
+  reg [14:0] order [0:127];  // first line and number of each edge, by the line
+  reg [20:0] lists [0:127];  // column and number of each active edge, by the column
+
+  // LOAD: the sides of a prim that count and have lines, one after the other.
+  reg bank;                                  // half of the table that is loaded
+  reg [6:0] edges;                           // in that half
+  reg over;                                  // there are more
+  reg putting;                               // an edge goes before others of the order list
+  reg [2:0] did;                             // sides of the prim that are loaded
+  wire [9:0] all_lines = prim_n1 + prim_n2;
+  wire [8:0] knee = prim_jm + prim_n1[8:0];  // first line of the lower part
+  wire major_left = prim_sides[0] && ((|prim_n1) || (|prim_n2)) && !did[0];
+  wire minor1_left = prim_sides[1] && (|prim_n1) && !did[1];
+  wire minor2_left = prim_sides[2] && (|prim_n2) && !did[2];
+  wire any_left = major_left || minor1_left || minor2_left;
+  wire [2:0] turn = {minor2_left && !major_left && !minor1_left,
+                     minor1_left && !major_left,
+                     major_left};
+  wire takes = prim_valid && !putting && any_left && !pass_writes;  // a side is loaded
+  wire [8:0] first_line = major_left ? prim_jm : minor1_left ? prim_jm : knee;
+  wire [9:0] lines = major_left ? all_lines : minor1_left ? prim_n1 : prim_n2;
+  wire [14:0] loaded_c = major_left ? prim_major_c : minor1_left ? prim_minor1_c : prim_minor2_c;
+  wire [21:0] loaded_r = major_left ? prim_major_r : minor1_left ? prim_minor1_r : prim_minor2_r;
+  wire [14:0] loaded_q = major_left ? prim_major_q : minor1_left ? prim_minor1_q : prim_minor2_q;
+  wire [21:0] loaded_f = major_left ? prim_major_f : minor1_left ? prim_minor1_f : prim_minor2_f;
+  wire [21:0] loaded_m = major_left ? prim_major_m : minor1_left ? prim_minor1_m : prim_minor2_m;
+  assign prim_ready = !putting && !any_left && !(prim_ends && (walking || fresh_queued));
+  wire fires = prim_valid && prim_ready;
+  wire closes = fires && prim_ends;          // the polygon has all its edges
+  wire begins = closes && (|edges) && !over && !prim_void;
+  assign refused = closes && over;
+  wire stores = takes && !edges[6];
+  wire [6:0] load_place = {bank, edges[5:0]};
+
+  always @(posedge clk) begin
+    if (stores) steps[load_place] <= {loaded_c, loaded_q, loaded_f, loaded_m};
+  end
+
+  wire [22:0] first_rest = {1'b0, loaded_r} - {1'b0, loaded_f};  // R - f, signed
+
+  always @(posedge clk) begin
+    if (rst) begin
+      bank <= 1'b0;
+    end else if (closes) begin
+      bank <= !bank;
+    end
+  end
+
+  always @(posedge clk) begin
+    if (rst) begin
+      did <= 3'd0;
+    end else begin
+      if (takes) did <= did | turn;
+      if (fires) did <= 3'd0;
+    end
+  end
+
+  always @(posedge clk) begin
+    if (rst) begin
+      over <= 1'b0;
+    end else begin
+      if (takes && edges[6]) over <= 1'b1;
+      if (closes) over <= 1'b0;
+    end
+  end
+
+  // The order list: those that begin later move up, a clock each.
+  reg [8:0] last_first;  // first line of the last edge of the list
+  reg [5:0] position;    // the place that is free
+  reg [8:0] put_line;    // first line of the edge that is put there
+  wire later = (first_line >= last_first) || !(|edges);  // no edge of the list begins later
+  wire appends = stores && later;
+  wire inserts = stores && !later;
+  wire [5:0] below = (putting ? position - 6'd1 : edges[5:0]) - 6'd1;
+  reg [14:0] order_q;
+
+  always @(posedge clk) begin
+    if (prim_valid) order_q <= order[{bank, below}];
+  end
+
+  wire moves_up = putting && (|position) && (order_q[14:6] > put_line);
+  wire ended = putting && !moves_up;
+  wire [5:0] order_place = putting ? position : edges[5:0];
+
+  always @(posedge clk) begin
+    if (appends || putting) order[{bank, order_place}] <= {putting ? (moves_up ? order_q[14:6] : put_line) : first_line,
+ putting ? (moves_up ? order_q[5:0] : edges[5:0]) : edges[5:0]};
+  end
+
+  wire pair_leaves;  // MOVER takes the pair that waits, or drops it
+
+  always @(posedge clk) begin
+    if (appends) last_first <= first_line;
+  end
+
+  always @(posedge clk) begin
+    if (inserts) put_line <= first_line;
+  end
+
+  always @(posedge clk) begin
+    if (moves_up) position <= position - 6'd1;
+    if (inserts) position <= edges[5:0];
+  end
+
+  always @(posedge clk) begin
+    if (rst) begin
+      putting <= 1'b0;
+    end else begin
+      if (ended) putting <= 1'b0;
+      if (inserts) putting <= 1'b1;
+    end
+  end
+
+  always @(posedge clk) begin
+    if (rst) begin
+      edges <= 7'd0;
+    end else begin
+      if (appends || ended) edges <= edges + 7'd1;
+      if (closes) edges <= 7'd0;
+    end
+  end
+
+  // PASS: the active list of line y through the stages B, a word, and C, the word with its record.
+  reg run;                             // lines are passed
+  reg [8:0] y;                         // the line
+  reg list;                            // the active list that is read: that of the line
+  reg half;                            // the first column of a pair is there
+  reg b_valid;
+  reg c_valid;
+  reg entering;                        // the edge of C begins on the next line
+  reg pair_waits;                      // a pair of columns waits for MOVER
+  wire passed = c_valid && !entering;  // the edge of C meets line y
+  wire closes_pair = passed && half;
+  wire blocked = closes_pair && pair_waits;
+
+  // Stage D: does the edge go behind the last of its list, or before some?
+  reg [6:0] count;         // edges in the list of the next line
+  reg [14:0] d_column;     // signed, column of the edge on the next line
+  reg [5:0] d_index;       // its number
+  reg [14:0] head_column;  // signed, first column of the list
+  reg [5:0] head_index;    // its number
+  reg [14:0] top_column;   // signed, last column of the list
+  reg [5:0] top_index;     // its number
+  reg d_valid;
+  reg moving;              // words move up for the edge of D
+  wire before_top = $signed(d_column) < $signed(top_column);
+  wire begins_moving = d_valid && !moving && (|count) && before_top;
+  wire advance = run && !(moving || begins_moving) && !blocked;
+
+  // The next edge of the order list; while no polygon is walked, the first of the one that is loaded.
+  reg [6:0] waiting;     // edges that have not entered
+  reg [5:0] order_next;  // place behind that of the next edge
+  wire [14:0] order_word;
+  wire some_waits = |waiting;
+  wire begins_on_next = order_word[14:6] == (y + 9'd1);
+  wire enters = run && !b_valid && some_waits && begins_on_next;
+  wire entered = advance && enters;
+  reg [14:0] order_q2;
+
+  always @(posedge clk) begin
+    if (!run || entered) order_q2 <= order[{bank ^ run, order_next & {6{run}}}];
+  end
+
+  assign order_word = order_q2;
+  wire line_ends = run && !d_valid && !b_valid && !c_valid && !enters;  // no edge is left on it, none enters
+  wire next_line_starts = line_ends && (|count);
+
+  always @(posedge clk) begin
+    if (entered) begin
+      waiting <= waiting - 7'd1;
+      order_next <= order_next + 6'd1;
+    end
+    if (!run) begin
+      waiting <= edges;
+      order_next <= 6'd1;
+    end
+  end
+
+  // Stage B: the next word of the list. Its first is kept in a register, to begin with on the next line.
+  reg [6:0] unread;     // words of the list not read yet
+  reg [5:0] next_word;  // place of the next word
+  wire some_unread = |unread;
+  wire several = count > 7'd1;
+  wire reads = advance && some_unread;
+  reg [20:0] lists_q;
+
+  always @(posedge clk) begin
+    if (advance) lists_q <= lists[{some_unread ? list : !list, some_unread ? next_word : 6'd1}];
+  end
+
+  always @(posedge clk) begin
+    if (rst) begin
+      unread <= 7'd0;
+    end else begin
+      if (reads) unread <= unread - 7'd1;
+      if (line_ends) unread <= several ? count - 7'd2 : 7'd0;
+    end
+  end
+
+  always @(posedge clk) begin
+    if (reads) next_word <= next_word + 6'd1;
+    if (line_ends) next_word <= 6'd2;
+  end
+
+  always @(posedge clk) begin
+    if (rst) begin
+      b_valid <= 1'b0;
+    end else if (advance) begin
+      b_valid <= some_unread || (line_ends && several);
+    end
+  end
+
+  // Stage C: the word with its record.
+  wire [5:0] next_index = b_valid ? lists_q[5:0] : enters ? order_word[5:0] : head_index;
+  wire [6:0] read_place = {!bank, next_index};
+  reg [73:0] steps_q;
+
+  always @(posedge clk) begin
+    if (advance) steps_q <= steps[read_place];
+  end
+
+  reg [32:0] rests_q;
+
+  always @(posedge clk) begin
+    if (advance) rests_q <= rests[read_place];
+  end
+
+  wire [9:0] lines_left = rests_q[9:0];
+  wire [22:0] rest = rests_q[32:10];  // R - f, signed
+  reg [14:0] c_column;
+  reg [5:0] c_index;
+
+  always @(posedge clk) begin
+    if (advance) begin
+      c_column <= b_valid ? lists_q[20:6] : head_column;
+      c_index <= next_index;
+      entering <= !b_valid && enters;
+    end
+  end
+
+  always @(posedge clk) begin
+    if (rst) begin
+      c_valid <= 1'b0;
+    end else if (advance) begin
+      c_valid <= b_valid || enters || next_line_starts;
+    end
+  end
+
+  // Each second column closes a pair.
+  wire walked = advance && passed;
+  reg [14:0] left;  // first column of the pair
+  wire pair_closed = advance && closes_pair;
+  reg [8:0] pair_line;
+  reg [14:0] pair_left;
+  reg [14:0] pair_right;
+
+  always @(posedge clk) begin
+    if (walked) left <= c_column;
+  end
+
+  always @(posedge clk) begin
+    if (rst) begin
+      half <= 1'b0;
+    end else begin
+      if (walked) half <= !half;
+      if (line_ends) half <= 1'b0;
+    end
+  end
+
+  always @(posedge clk) begin
+    if (rst) begin
+      pair_waits <= 1'b0;
+    end else begin
+      if (pair_leaves) pair_waits <= 1'b0;
+      if (pair_closed) pair_waits <= 1'b1;
+    end
+  end
+
+  always @(posedge clk) begin
+    if (pair_closed) begin
+      pair_line <= y;
+      pair_left <= left;
+      pair_right <= c_column;
+    end
+  end
+
+  // Stage D: the edge on the next line, and its record written back.
+  wire leaves = !entering && (lines_left == 10'd1);  // line y is its last one
+  wire [14:0] stepped = c_column + steps_q[58:44] + {14'd0, rest[22]};
+  wire [22:0] rest_less = rest - {1'b0, steps_q[43:22]};
+  wire [22:0] rest_back = rest[22] ? {1'b0, steps_q[21:0]} : 23'd0;
+  reg [22:0] d_rest;                                 // R - f, signed
+  reg [9:0] d_lines_left;
+  reg writes;                                        // the record of D is written
+  wire rests_written = stores || writes;
+
+  always @(posedge clk) begin
+    if (rests_written) rests[writes ? {!bank, d_index} : load_place] <= writes ? {d_rest, d_lines_left} : {first_rest, lines};
+  end
+
+  always @(posedge clk) begin
+    if (advance) begin
+      d_rest <= rest_less + rest_back;
+      d_lines_left <= lines_left - 10'd1;
+    end
+  end
+
+  always @(posedge clk) begin
+    if (rst) begin
+      writes <= 1'b0;
+    end else begin
+      writes <= advance && passed && !leaves;
+    end
+  end
+
+  // The words before which the edge goes move up, the last of them first; then it takes the gap.
+  reg [5:0] gap;  // the place that is free
+  wire [5:0] before_gap = (moving ? gap - 6'd1 : count[5:0] - 6'd1) - 6'd1;
+  reg [20:0] lists_q2;
+
+  always @(posedge clk) begin
+    if (d_valid) lists_q2 <= lists[{!list, before_gap}];
+  end
+
+  wire shifts = moving && (|gap) && ($signed(d_column) < $signed(lists_q2[20:6]));
+  wire placed = d_valid && !begins_moving && !shifts;  // the edge has its place
+  wire [5:0] list_place = moving ? gap : count[5:0];
+  wire moved = begins_moving || shifts;
+
+  always @(posedge clk) begin
+    if (d_valid) lists[{!list, list_place}] <= {moved ? (shifts ? lists_q2[20:6] : top_column) : d_column,
+ moved ? (shifts ? lists_q2[5:0] : top_index) : d_index};
+  end
+
+  always @(posedge clk) begin
+    if (rst) begin
+      moving <= 1'b0;
+    end else begin
+      if (placed) moving <= 1'b0;
+      if (begins_moving) moving <= 1'b1;
+    end
+  end
+
+  always @(posedge clk) begin
+    if (shifts) gap <= gap - 6'd1;
+    if (begins_moving) gap <= count[5:0] - 6'd1;
+  end
+
+  always @(posedge clk) begin
+    if (placed && (moving ? !(|gap) : !(|count))) begin
+      head_column <= d_column;
+      head_index <= d_index;
+    end
+  end
+
+  always @(posedge clk) begin
+    if (placed && !moving) begin
+      top_column <= d_column;
+      top_index <= d_index;
+    end
+  end
+
+  always @(posedge clk) begin
+    if (rst) begin
+      count <= 7'd0;
+    end else begin
+      if (placed) count <= count + 7'd1;
+      if (line_ends) count <= 7'd0;
+    end
+  end
+
+  always @(posedge clk) begin
+    if (rst) begin
+      d_valid <= 1'b0;
+    end else begin
+      if (placed) d_valid <= 1'b0;
+      if (advance) d_valid <= c_valid && !leaves;
+    end
+  end
+
+  always @(posedge clk) begin
+    if (advance) begin
+      d_column <= entering ? steps_q[73:59] : stepped;
+      d_index <= c_index;
+    end
+  end
+
+  // The next line.
+  wire polygon_ends = line_ends && !(|count) && !some_waits;
+  wire [8:0] line_before = prim_start_y - 9'd1;
+  assign pass_writes = writes;
+
+  always @(posedge clk) begin
+    if (rst) begin
+      run <= 1'b0;
+    end else begin
+      if (polygon_ends) run <= 1'b0;
+      if (begins) run <= 1'b1;
+    end
+  end
+
+  always @(posedge clk) begin
+    if (line_ends) y <= y + 9'd1;
+    if (!run) y <= line_before;
+  end
+
+  always @(posedge clk) begin
+    if (rst) begin
+      list <= 1'b0;
+    end else if (line_ends) begin
+      list <= !list;
+    end
+  end
+
+  // MOVER: the pair that waits, cut to the screen; it is dropped if nothing is left.
+  wire right_cut = !pair_right[14] && (pair_right >= 15'd640);  // the pair ends beside the screen
+  wire left_cut = pair_left[14];  // the pair begins beside the screen
+  wire some_columns = ($signed(pair_left) < $signed(pair_right))  // of the screen
+                   && !(!pair_left[14] && (pair_left >= 15'd640))
+                   && !pair_right[14] && (|pair_right);
+  wire [14:0] first = left_cut ? 15'd0 : pair_left;
+  wire [14:0] behind = right_cut ? 15'd640 : pair_right;
+  reg has_span;                   // a span is offered, or values move to it
+  wire line_fires = line_valid && line_ready;
+  wire free = !has_span || line_fires;
+  wire takes_pair = pair_waits && some_columns && free;
+
+  always @(posedge clk) begin
+    if (rst) begin
+      has_span <= 1'b0;
+    end else begin
+      if (line_fires) has_span <= 1'b0;
+      if (takes_pair) has_span <= 1'b1;
+    end
+  end
+
+  // The way to the span: lines down, then columns to the right or to the left.
+  reg [8:0] at_line;        // line of the span before
+  reg [9:0] at_column;      // its first column
+  wire [10:0] beside = {1'b0, first[9:0]} - {1'b0, at_column};  // signed, columns
+  wire [9:0] columns_away = (beside[9:0] ^ {10{beside[10]}}) + {9'd0, beside[10]};
+  reg [8:0] lines_down;     // lines left to go down
+  reg [9:0] columns_along;  // columns left to go, in doubles of what is added
+  reg down;                 // lines are left
+  reg along;                // columns are left
+  reg to_left;              // they lie to the left
+  wire doubles = !down && along;
+  wire adds = down || (along && columns_along[0]);
+  assign line_valid = has_span && !down && !along;
+
+  always @(posedge clk) begin
+    if (takes_pair) begin
+      at_line <= pair_line;
+      at_column <= first[9:0];
+    end
+    if (!walking) begin
+      at_line <= prim_start_y;
+      at_column <= prim_start_x;
+    end
+  end
+
+  always @(posedge clk) begin
+    if (takes_pair) to_left <= beside[10];
+  end
+
+  wire [8:0] difference = pair_line - at_line;
+
+  always @(posedge clk) begin
+    if (down) lines_down <= lines_down - 9'd1;
+    if (takes_pair) lines_down <= difference;
+  end
+
+  always @(posedge clk) begin
+    if (rst) begin
+      down <= 1'b0;
+    end else begin
+      if (down) down <= lines_down != 9'd1;
+      if (takes_pair) down <= |difference;
+    end
+  end
+
+  wire [9:0] shifted = columns_along >> 1;
+
+  always @(posedge clk) begin
+    if (doubles) columns_along <= shifted;
+    if (takes_pair) columns_along <= columns_away;
+  end
+
+  always @(posedge clk) begin
+    if (rst) begin
+      along <= 1'b0;
+    end else begin
+      if (doubles) along <= |shifted;
+      if (takes_pair) along <= |columns_away;
+    end
+  end
+
+  // The line that is offered. While no polygon is walked everything takes the next one, again and again.
+  always @(posedge clk) begin
+    if (takes_pair) begin
+      line_y <= pair_line;
+      line_cmaj <= first;
+      line_cmin <= behind;
+    end
+  end
+
+  always @(posedge clk) begin
+    if (line_fires) line_fresh <= 1'b0;
+    if (!walking) line_fresh <= 1'b1;
+  end
+
+  // The values: d0 is added a line, and the increment as often as its double has a bit in the number of columns.
+  reg [37:0] z_d0;     // step to the next line
+  reg [37:0] z_along;  // increment, doubled as often as it was asked for
+  wire [37:0] z_added = down ? z_d0 : z_along ^ {38{to_left}};
+  wire [38:0] z_moved = {line_z, 1'b1} + {z_added, !down && to_left};  // and a carry out of the lowest bit
+  reg [21:0] r_d0;     // step to the next line
+  reg [21:0] r_along;  // increment, doubled as often as it was asked for
+  wire [21:0] r_added = down ? r_d0 : r_along ^ {22{to_left}};
+  wire [22:0] r_moved = {line_r, 1'b1} + {r_added, !down && to_left};  // and a carry out of the lowest bit
+  reg [21:0] g_d0;     // step to the next line
+  reg [21:0] g_along;  // increment, doubled as often as it was asked for
+  wire [21:0] g_added = down ? g_d0 : g_along ^ {22{to_left}};
+  wire [22:0] g_moved = {line_g, 1'b1} + {g_added, !down && to_left};  // and a carry out of the lowest bit
+  reg [21:0] b_d0;     // step to the next line
+  reg [21:0] b_along;  // increment, doubled as often as it was asked for
+  wire [21:0] b_added = down ? b_d0 : b_along ^ {22{to_left}};
+  wire [22:0] b_moved = {line_b, 1'b1} + {b_added, !down && to_left};  // and a carry out of the lowest bit
+  assign pair_leaves = pair_waits && (free || !some_columns);
+  assign walking = run || pair_waits || has_span;
+
+  always @(posedge clk) begin
+    if (begins) begin
+      inc_z <= prim_z_g;
+      inc_r <= prim_r_g;
+      inc_g <= prim_g_g;
+      inc_b <= prim_b_g;
+    end
+  end
+
+  always @(posedge clk) begin
+    if (!walking) begin
+      z_d0 <= prim_z_d0;
+      r_d0 <= prim_r_d0;
+      g_d0 <= prim_g_d0;
+      b_d0 <= prim_b_d0;
+    end
+  end
+
+  always @(posedge clk) begin
+    if (doubles) begin
+      z_along <= z_along << 1;
+      r_along <= r_along << 1;
+      g_along <= g_along << 1;
+      b_along <= b_along << 1;
+    end
+    if (takes_pair) begin
+      z_along <= inc_z;
+      r_along <= inc_r;
+      g_along <= inc_g;
+      b_along <= inc_b;
+    end
+  end
+
+  always @(posedge clk) begin
+    if (adds) begin
+      line_z <= z_moved[38:1];
+      line_r <= r_moved[22:1];
+      line_g <= g_moved[22:1];
+      line_b <= b_moved[22:1];
+    end
+    if (!walking) begin
+      line_z <= prim_z_start;
+      line_r <= prim_r_start;
+      line_g <= prim_g_start;
+      line_b <= prim_b_start;
+    end
+  end
+
+  assign line_major_right = 1'b0;
+  assign line_fence = line_fresh;
+
+  // Not needed, on purpose.
+  wire unused = &{1'b0, prim_major_right, z_moved[0], r_moved[0], g_moved[0], b_moved[0]};
+
+endmodule
+
+`default_nettype wire
