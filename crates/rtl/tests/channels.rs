@@ -47,6 +47,7 @@ fn machines(rng: &mut Pcg64Mcg) -> (Plan, Plan) {
         (machine.blend.kind, machine.shade.kind) = (BlendKind::None, ShadeKind::None);
         machine.dither = Dither::default();
         machine.setup_kind = SetupKind::Parallel; // the driver offers whole triangles
+        machine.polygon.edges = 0; // and no window
         machine.width = rng.random_range(1..=16);
         machine.height = rng.random_range(1..=16);
         machine.guard_bits = rng.random_range(4..=6);
