@@ -57,9 +57,14 @@ impl<'m> Results<'_, 'm> {
         let leaves_out = rounds(self.plan)[0] > 1 || self.plan.edge_kind == EdgeKind::Slope;
         if self.plan.polygon.is_there() && leaves_out {
             for result in ["c", "r", "q", "f"] {
-                self.register(EDGES[edge], result).when(self.control.sequence.take, 0);
+                self.register(EDGES[edge], result).when(self.begins(), 0);
             }
         }
+    }
+
+    /// The token's first operation ends: results of the token before, or of one that a reset cut off, are all written.
+    fn begins(&self) -> Signal<'m> {
+        self.control.way.whole.is(Op::Subtract)
     }
 
     fn edge_exact(&self, edge: usize, round: usize, lane: &Lane<'m>) {
@@ -122,7 +127,7 @@ impl<'m> Results<'_, 'm> {
         if self.plan.polygon.is_there() {
             // What has no values keeps these.
             for result in ["g", "d0", "start"] {
-                register(result).when(self.control.sequence.take, 0);
+                register(result).when(self.begins(), 0);
             }
         }
         register("g").when(whole.ends_in(Op::DoubleX, round), rounded); // negated where the spans run left

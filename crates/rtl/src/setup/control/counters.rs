@@ -46,12 +46,9 @@ pub(super) struct Counters<'m> {
 impl<'m> Counters<'m> {
     /// The registers, without updates.
     pub fn new(m: &'m Module, plan: &Plan, op_bits: u32, left_bits: u32) -> Counters<'m> {
-        let state = m.reg("state", 2).reset(0);
-        let at = m.reg("at", op_bits).doc("operation");
         Counters {
-            state,
-            // With POLY results are cleared with a token: nothing begun before a reset may write them.
-            at: if plan.polygon.is_there() { at.reset(0) } else { at },
+            state: m.reg("state", 2).reset(0),
+            at: m.reg("at", op_bits).doc("operation"),
             left: m.reg("left", left_bits).doc("its clocks after this one"),
             first: m.reg("first", 1).doc("its first clock, but for that of a triangle"),
             rounds: Rounds::new(m, plan),

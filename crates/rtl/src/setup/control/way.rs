@@ -77,11 +77,7 @@ impl<'m> Way<'m> {
         m.comment("The way of an operation: named, its addends formed, its step done, the rest and then the whole of the result.");
         let round = counters.rounds.number.map(Reg::q);
         let named = Stage { at: counters.at.q(), round, ends: sequence.ends, codes: codes.clone() };
-        // With POLY results are cleared with a token, so nothing may be written that was begun before a reset.
-        let register = |name: &str| {
-            let register = StageRegister::new(m, name, &named);
-            if plan.polygon.is_there() { register.reset() } else { register }
-        };
+        let register = |name: &str| StageRegister::new(m, name, &named);
         let next = register("next").load(Some(pause.advance), &named);
         let resumes = pause.left.eq(1).named_doc("resumes", "the step after the numbers is formed again");
         // What took in numbers that do not fit, and the step after it: in exact fill only DX may not fit, and
@@ -136,11 +132,6 @@ impl<'m> StageRegister<'m> {
             round: like.round.map(|round| m.reg(&format!("round_{name}"), round.width())),
             ends: m.reg(&format!("ends_{name}"), 1),
         }
-    }
-
-    /// Nothing is on the way behind a reset.
-    fn reset(self) -> StageRegister<'m> {
-        StageRegister { at: self.at.reset(0), ends: self.ends.reset(0), ..self }
     }
 
     /// Takes the stage before in each clock, or only under a condition.
