@@ -57,6 +57,7 @@ mod texels;
 mod reliefs;
 mod lamps;
 mod threads;
+mod tour;
 mod trace;
 mod tutorials;
 mod vectors;
