@@ -24,6 +24,7 @@ mod light;
 mod limits;
 mod lines;
 mod links;
+mod manual;
 mod meshes;
 mod mix;
 mod names;
