@@ -85,7 +85,7 @@ impl Synthesiser {
         })
     }
 
-    /// That its tools are there.
+    /// Checks that the tools of synthesis are there.
     pub fn check(&self) -> Result<()> {
         for tool in self.target.tools() {
             edgewalk_tool::run(std::process::Command::new(tool).arg("--version"), self.limit)?;

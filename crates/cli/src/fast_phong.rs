@@ -39,7 +39,7 @@ impl FitName {
 }
 
 impl FastPhongArgs {
-    /// That no option is given where another shading has no use for it.
+    /// Checks that no option is given where another shading has no use for it.
     ///
     /// # Errors
     /// One is.

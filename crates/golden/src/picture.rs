@@ -144,7 +144,7 @@ pub enum Step {
         at: usize,
         /// Place of the primitive in the list.
         id: i32,
-        /// That of the one whose depth is stored, or [`NO_TRIANGLE`]: the cleared one.
+        /// The triangle whose depth is stored, or [`NO_TRIANGLE`]: the cleared one.
         stored: i32,
         /// How far they are apart.
         gap: f64,
@@ -157,7 +157,7 @@ pub enum Step {
         id: i32,
         /// The fragment's depth.
         z: f64,
-        /// Its colour, before a light's map.
+        /// Colour of the fragment, before a light's map.
         own: [f64; 3],
         /// What the map does.
         lit: Lit,
@@ -165,7 +165,7 @@ pub enum Step {
         share: f64,
         /// The number of the light, as the rules have it.
         light: usize,
-        /// Its k_t.
+        /// k_t of the fragment.
         kt: f64,
         /// What the pixel had.
         back: [f64; 3],

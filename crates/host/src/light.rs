@@ -127,7 +127,7 @@ pub fn left_error(panes: u32, bits: u32, kt_bits: u32, grey: f64) -> f64 {
 
 /// A light's map, and what drawing it took.
 pub struct Map {
-    /// Its words, by address.
+    /// Words of the map, by address.
     pub words: Vec<u32>,
     /// Of the light's own pass.
     pub counters: Counters,

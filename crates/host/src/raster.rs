@@ -80,7 +80,7 @@ impl Cycles {
         Cycles { total: counters.cycles, path, held: Some(held), spent: counters.activity }
     }
 
-    /// Those of two runs, one after the other.
+    /// The cycles of two runs, one after the other.
     #[must_use]
     pub fn and(mut self, other: Cycles) -> Self {
         self.total += other.total;

@@ -50,7 +50,7 @@ impl Choice {
 /// What each value alone needs in the step that was looked at last.
 pub(crate) struct Sink {
     trees: Vec<Tree>,
-    /// Those that the step needs.
+    /// Values that the step needs.
     needed: Vec<ValueId>,
 }
 

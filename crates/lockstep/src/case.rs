@@ -104,7 +104,7 @@ impl Case {
         }
     }
 
-    /// Its ports; of the whole machine also those of the units inside.
+    /// Ports of the unit; of the whole machine also those of the units inside.
     #[must_use]
     pub fn interface(&self) -> Interface {
         match self.unit == Unit::MACHINE {

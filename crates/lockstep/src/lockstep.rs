@@ -44,7 +44,7 @@ pub enum LockstepError {
     /// Nothing would be compared.
     #[error("nothing to compare: the model gives no token")]
     Vacuous,
-    /// It did not come to rest.
+    /// The device did not come to rest.
     #[error("still busy after {0} cycles")]
     Busy(u64),
 }

@@ -6,7 +6,7 @@ use crate::shade::ShadeKind;
 /// A polynomial in the place of a pixel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Term {
-    /// Its name in ports and reports.
+    /// Name in ports and reports.
     pub name: &'static str,
     /// 1 or 2.
     pub degree: u32,

@@ -122,7 +122,7 @@ struct Ends<'m> {
     first: Signal<'m>,
     /// The column behind the last, but for the cut at the screen's right side.
     end: Signal<'m>,
-    /// That cut is made.
+    /// The right end is cut.
     beyond: Signal<'m>,
     /// No column lies between them.
     crossed: Signal<'m>,

@@ -30,7 +30,7 @@ pub enum Stop {
         /// What installs it.
         install: String,
     },
-    /// It failed.
+    /// The tool failed.
     #[error("{tool} failed:\n{}", lines.join("\n"))]
     Broken {
         /// The program.
@@ -38,7 +38,7 @@ pub enum Stop {
         /// What it said first.
         lines: Vec<String>,
     },
-    /// It took too long and was ended.
+    /// The tool took too long and was ended.
     #[error("{tool} was ended after {} s", limit.as_secs())]
     TimeLimit {
         /// The program.

@@ -31,7 +31,7 @@ pub struct Manifest {
     pub machine: MachineInfo,
     /// What is tested: `machine`, or a unit.
     pub unit: String,
-    /// Its Verilog module.
+    /// Verilog module of the unit.
     pub module: String,
     /// How tokens move and what a cycle is.
     pub handshake: Handshake,
@@ -59,7 +59,7 @@ pub struct Manifest {
     pub expected: u64,
     /// How often the model met each hazard and corner that it can meet in this unit of this machine.
     pub coverage: BTreeMap<String, u64>,
-    /// Those of them that it did not meet in this run.
+    /// Events that this run did not meet.
     pub not_covered: Vec<String>,
     /// Every other file of the directory.
     pub files: Vec<File>,
@@ -85,7 +85,7 @@ pub struct SuiteInfo {
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct CaseInfo {
-    /// Its name.
+    /// Name of the case.
     pub name: String,
     /// Number of its first triangle.
     pub first: u64,
@@ -136,11 +136,11 @@ pub struct Stalls {
 pub struct SideInput {
     /// The port.
     pub port: String,
-    /// Its meaning.
+    /// Format of the input.
     pub format: String,
     /// The channel in whose tokens count: after the last of them has moved it is 0.
     pub while_tokens_of: String,
-    /// Its file among the patterns.
+    /// File of the input among the patterns.
     pub pattern: String,
     /// How the bench comes by its value.
     pub rule: String,
@@ -177,7 +177,7 @@ pub struct Memory {
     pub read: String,
     /// The channel of its words, in the order of the reads.
     pub data: String,
-    /// Who writes it; null if that is not of this unit.
+    /// The link that writes it; null if another unit's does.
     pub write: Option<MemoryWrite>,
     /// Cycles from a read to its data, at the least.
     pub latency: u64,
@@ -215,7 +215,7 @@ pub enum Compare {
     Exact,
     /// Every bit, and the cycle.
     Cycle,
-    /// It is driven, not compared.
+    /// The port is driven, not compared.
     Driven,
 }
 
@@ -274,7 +274,7 @@ pub struct Field {
 pub struct Status {
     /// The ports, the most significant first.
     pub fields: Vec<Field>,
-    /// Those of them that a design compared without its cycles need not have.
+    /// Ports that a design compared without its cycles need not have.
     pub optional: Vec<String>,
     /// For a port that means something only while another is 1 that other port: it counts as 0 while not.
     pub during: BTreeMap<String, String>,

@@ -9,7 +9,7 @@ use edgewalk_machine::key::{Domain, Key};
 pub struct Axis {
     /// The key.
     pub key: &'static Key,
-    /// Its values, as the key's `set` takes them, in the order they were given.
+    /// Values of the axis, as the key's `set` takes them, in the order they were given.
     pub values: Vec<u32>,
 }
 

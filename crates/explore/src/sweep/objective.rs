@@ -7,7 +7,7 @@ use serde_json::Value;
 /// A figure that is to be small or large.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Objective {
-    /// Its name on the command line.
+    /// Name on the command line.
     pub name: &'static str,
     /// Where a row has it.
     pub pointer: &'static str,
@@ -74,7 +74,7 @@ const USUAL_WITH_SYNTH: [&str; 4] = ["frames_per_s", "lut4", "z_error", "color_e
 const ACROSS_SHADINGS: &str = "shading_mean";
 
 impl Objective {
-    /// Those of these names; the usual ones if there is none. `shadings`: the machines shade differently.
+    /// The objectives of these names; the usual ones if there is none. `shadings`: the machines shade differently.
     ///
     /// # Errors
     /// An unknown name, one that comes twice, one that needs synthesis where there is none.

@@ -126,7 +126,7 @@ pub struct Pixels {
     report: Report,
     culled: Vec<Option<Culled>>,
     passage: Passage,
-    /// It was drawn without ticking.
+    /// The pixels were drawn without ticking.
     plain: bool,
     /// From the shading equation, where that was asked for.
     distance: Option<Distance>,

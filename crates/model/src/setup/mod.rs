@@ -227,7 +227,7 @@ pub enum Culled {
     Lines,
     /// No column (exact fill).
     Columns,
-    /// Its area is 0.
+    /// The triangle's area is 0.
     Area,
 }
 

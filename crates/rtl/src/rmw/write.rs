@@ -60,7 +60,7 @@ impl<'m> Write<'m> {
         self.fields.load(free, value);
     }
 
-    /// It has still to leave by this way.
+    /// The write has still to leave by this way.
     pub fn valid(&self, way: usize) -> Reg<'m> {
         self.ways[way]
     }

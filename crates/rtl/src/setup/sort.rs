@@ -109,7 +109,7 @@ fn corner(plan: &Plan) -> Vec<Part> {
     ["u", "v"].map(|name| Part { name: name.to_owned(), width: w.center, doc: center.clone() }).into()
 }
 
-/// Its values, one a channel.
+/// Values of a vertex, one a channel.
 fn values(plan: &Plan) -> Vec<Part> {
     let value = |channel: &Channel| Part {
         name: channel.name.to_owned(),

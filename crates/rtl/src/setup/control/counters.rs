@@ -36,9 +36,9 @@ pub(super) struct Counters<'m> {
     pub state: Reg<'m>,
     /// The operation that begins.
     pub at: Reg<'m>,
-    /// Its clocks after this one.
+    /// Clocks of the operation after this one.
     pub left: Reg<'m>,
-    /// Its first clock.
+    /// First clock of the operation.
     pub first: Reg<'m>,
     pub rounds: Rounds<'m>,
 }
@@ -76,7 +76,7 @@ impl<'m> Rounds<'m> {
         Rounds { number: (most > 1).then(register), of_edges, of_channels }
     }
 
-    /// It is this round; `None` where there is no other.
+    /// The counter is at this round; `None` where there is no other.
     pub fn is(&self, number: usize) -> Option<Signal<'m>> {
         self.number.map(|round| round.q().eq(number as i32))
     }

@@ -27,7 +27,7 @@ impl<'m> Modulus<'m> {
 pub(super) struct Rest<'m> {
     pub now: Reg<'m>,
     next: Wire<'m>,
-    /// That of the slot that is read.
+    /// The rest of the slot that is read.
     pub stored: Signal<'m>,
 }
 
