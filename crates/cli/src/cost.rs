@@ -132,6 +132,6 @@ pub fn cache_folder(asked: Option<&Path>) -> Result<PathBuf> {
     let usual = || variable("XDG_CACHE_HOME").or_else(|| Some(variable("HOME")?.join(".cache")));
     let own = |folder: PathBuf| folder.join("edgewalk").join("synth");
     asked.map(Path::to_owned).or_else(|| usual().map(own)).ok_or_else(|| {
-        anyhow!("neither XDG_CACHE_HOME nor HOME says where to keep results; say it with --cache DIR")
+        anyhow!("neither XDG_CACHE_HOME nor HOME is set, so results have no folder; add --cache DIR")
     })
 }

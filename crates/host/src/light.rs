@@ -90,7 +90,7 @@ fn scale_of(values: &[[f64; 4]; 3], machine: &Plan) -> Result<f64> {
     // Beyond, 2^k and what it scales would lose bits.
     if !(1e-200..1e200).contains(&largest) {
         return Err(anyhow!(
-            "shadow: the matrix takes a vertex to numbers of {largest:e}; 1e-200 to 1e200 is permitted"
+            "shadow: the matrix takes a vertex to numbers of {largest:e}; permitted: 1e-200 to 1e200; scale the matrix"
         ));
     }
     let guess = 2f64.powi((most / largest).log2().floor() as i32);

@@ -91,7 +91,7 @@ impl Objective {
                 .find(|objective| objective.name == name)
                 .ok_or_else(|| anyhow!("--objective {name}: {}", Unknown::new("figure", name, all)))?;
             if list.contains(found) {
-                return Err(anyhow!("--objective {name}: comes twice"));
+                return Err(anyhow!("--objective {name}: is given twice; give it once"));
             }
             if found.synth && !synth {
                 return Err(anyhow!("--objective {name}: only synthesis gives it; add --synth TARGET"));
