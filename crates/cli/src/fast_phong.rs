@@ -46,8 +46,12 @@ impl FastPhongArgs {
     pub fn unused(&self) -> Result<()> {
         match (self.fit, self.table) {
             (None, None) => Ok(()),
-            (Some(_), _) => Err(anyhow!("--fit: permitted with --shading fast-phong only; leave it out, or add --shading fast-phong")),
-            (None, Some(_)) => Err(anyhow!("--table: permitted with --shading fast-phong only; leave it out, or add --shading fast-phong")),
+            (Some(_), _) => Err(anyhow!(
+                "--fit: permitted with --shading fast-phong only; leave it out, or add --shading fast-phong"
+            )),
+            (None, Some(_)) => Err(anyhow!(
+                "--table: permitted with --shading fast-phong only; leave it out, or add --shading fast-phong"
+            )),
         }
     }
 

@@ -38,8 +38,8 @@ mod verdict;
 use anyhow::{Result, anyhow};
 use clap::{CommandFactory as _, Parser, Subcommand};
 use commands::{
-    bench, compare, completions, config, demo, emit, explain, gallery, judge, man, raster, render, replay, size, sweep, synth,
-    trace, vectors, verify,
+    bench, compare, completions, config, demo, emit, explain, gallery, judge, man, raster, render, replay,
+    size, sweep, synth, trace, vectors, verify,
 };
 use machine_args::MachineArgs;
 use std::io::Write as _;

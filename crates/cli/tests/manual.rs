@@ -39,7 +39,8 @@ fn shells_complete_every_command_and_option() {
         for command in &commands {
             assert!(text.contains(command.as_str()), "{shell}: {command}");
             for option in options(folder.path(), command) {
-                let name = if shell == "fish" { format!("-l {}", option.trim_start_matches('-')) } else { option };
+                let name =
+                    if shell == "fish" { format!("-l {}", option.trim_start_matches('-')) } else { option };
                 assert!(text.contains(&name), "{shell}: {command} {name}");
                 checked += 1;
             }
@@ -57,8 +58,14 @@ fn bash_reads_its_completions() {
     let folder = tempfile::tempdir().unwrap();
     std::fs::write(folder.path().join("e"), printed(folder.path(), &["completions", "bash"])).unwrap();
     let script = ". ./e; COMP_WORDS=(edgewalk ren); COMP_CWORD=1; _edgewalk edgewalk ren edgewalk; echo ${COMPREPLY[@]}";
-    let output = std::process::Command::new("bash").args(["-c", script]).current_dir(folder.path()).output().unwrap();
-    assert_eq!(String::from_utf8_lossy(&output.stdout), "render\n", "{}", String::from_utf8_lossy(&output.stderr));
+    let output =
+        std::process::Command::new("bash").args(["-c", script]).current_dir(folder.path()).output().unwrap();
+    assert_eq!(
+        String::from_utf8_lossy(&output.stdout),
+        "render\n",
+        "{}",
+        String::from_utf8_lossy(&output.stderr)
+    );
 }
 
 #[test]

@@ -26,8 +26,7 @@ pub(crate) fn check(machine: &Machine, channels: &[Channel]) -> Result<(), Machi
         return Err(MachineError::rule(
             machine,
             "texture.kind",
-            "a texture has no effect while shade.colour = tables; or set shade.colour = multiply"
-                .to_owned(),
+            "a texture has no effect while shade.colour = tables; or set shade.colour = multiply".to_owned(),
             "none".to_owned(),
         ));
     }

@@ -6,9 +6,9 @@ use crate::staging::Staging;
 use crate::verdict::Verdict;
 use crate::{Talk, picture};
 use anyhow::{Result, anyhow};
-use edgewalk_replay::lesson::markdown::wrapped;
 use edgewalk_gallery::{EXHIBITS, Exhibit, Image, Maker, View};
 use edgewalk_machine::Unknown;
+use edgewalk_replay::lesson::markdown::wrapped;
 use rayon::prelude::*;
 use serde_json::json;
 use std::fmt::Write as _;
@@ -100,7 +100,12 @@ fn page(exhibits: &[Exhibit]) -> String {
         .to_owned();
     for exhibit in exhibits {
         // Writing to a string cannot fail.
-        _ = write!(page, "\n## {}\n\n{}\n\n| measured | |\n|---|---|\n", exhibit.title, wrapped(&exhibit.cause));
+        _ = write!(
+            page,
+            "\n## {}\n\n{}\n\n| measured | |\n|---|---|\n",
+            exhibit.title,
+            wrapped(&exhibit.cause)
+        );
         for (quantity, value) in &exhibit.figures {
             _ = writeln!(page, "| {quantity} | {value} |");
         }

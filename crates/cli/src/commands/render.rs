@@ -75,7 +75,9 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
     let wireframe = args.source.shading == Shading::Wireframe;
     let lines_only = args.engine == Engine::Golden && wireframe;
     if args.hidden_lines && !wireframe {
-        return Err(anyhow!("--hidden-lines: permitted with --shading wireframe only; leave it out, or add --shading wireframe"));
+        return Err(anyhow!(
+            "--hidden-lines: permitted with --shading wireframe only; leave it out, or add --shading wireframe"
+        ));
     }
     if matches!(args.engine, Engine::Golden | Engine::Scanline) && args.stalls != Waits::Never {
         return Err(anyhow!(

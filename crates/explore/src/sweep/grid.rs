@@ -48,7 +48,10 @@ impl Sweep {
         let axes = definition.vary.iter().map(|text| Axis::parse(text)).collect::<Result<Vec<_>>>()?;
         for (place, axis) in axes.iter().enumerate() {
             if axes[..place].iter().any(|before| before.key.name == axis.key.name) {
-                return Err(anyhow!("--vary {}: the key is varied twice; put its values into one --vary", axis.key.name));
+                return Err(anyhow!(
+                    "--vary {}: the key is varied twice; put its values into one --vary",
+                    axis.key.name
+                ));
             }
         }
         let memories = Memory::list(&definition.stalls)?;

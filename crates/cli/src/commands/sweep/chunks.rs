@@ -110,7 +110,9 @@ fn chunk(asked: Option<u32>) -> Result<u32> {
     let (name, text) = set.ok_or_else(|| {
         anyhow!("--chunk: no part is given; add --chunk N, or set {} or {}", VARIABLES[0], VARIABLES[1])
     })?;
-    text.parse().map_err(|_| anyhow!("{name}={text}: is no number of a part; set it to a whole number from 0, or unset it"))
+    text.parse().map_err(|_| {
+        anyhow!("{name}={text}: is no number of a part; set it to a whole number from 0, or unset it")
+    })
 }
 
 /// Puts the rows of all parts together, in the order of the points. Parts that are not there yet are missing and said to be.

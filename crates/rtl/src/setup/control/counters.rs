@@ -49,8 +49,8 @@ impl<'m> Counters<'m> {
         Counters {
             state: m.reg("state", 2).reset(0),
             at: m.reg("at", op_bits).doc("operation"),
-            left: m.reg("left", left_bits).doc("its clocks after this one"),
-            first: m.reg("first", 1).doc("its first clock, but for that of a triangle"),
+            left: m.reg("left", left_bits).doc("clocks of the operation after this one"),
+            first: m.reg("first", 1).doc("first clock of an operation, except of a triangle's first"),
             rounds: Rounds::new(m, plan),
         }
     }
