@@ -41,6 +41,7 @@ mod readme;
 mod replay;
 mod replay_page;
 mod reports;
+mod results;
 mod scenes;
 mod sentences;
 mod setup_report;
