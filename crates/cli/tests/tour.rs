@@ -86,3 +86,15 @@ fn tour_shows_what_the_machine_does() {
     let files = std::fs::read_dir(root().join("docs/tour")).unwrap().count();
     assert_eq!(files, pictures.len(), "a file in docs/tour that the page does not show");
 }
+
+#[test]
+fn tour_names_every_cause() {
+    let page = std::fs::read_to_string(root().join("docs/tour.md")).unwrap();
+    let recording = recorded(page.lines().find(|line| line.starts_with("edgewalk replay ")).unwrap());
+    let causes = recording.json["causes"].as_array().unwrap();
+    for cause in causes {
+        let [name, means] = ["name", "means"].map(|key| cause[key].as_str().unwrap());
+        assert!(page.contains(&format!("\n| `{name}` | {means} |\n")), "{name}: {means}");
+    }
+    assert!(causes.len() > 10);
+}
