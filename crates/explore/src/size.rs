@@ -50,7 +50,7 @@ pub struct ChannelSize {
     pub fraction_bits: u32,
     /// For every triangle in the guard band.
     pub every: Answer,
-    /// The same with the fewest guard bits.
+    /// Like `every`, with the fewest guard bits.
     pub every_in_fewest_guard_bits: Answer,
     /// For these triangles.
     pub these: Answer,

@@ -67,7 +67,7 @@ impl<'a> Drawing<'a> {
         Self { list: DrawList::new(frame, fill), screen_door: None }
     }
 
-    /// The same with a screen door: a triangle that is mixed by its k_t, rounded to so many bits, is drawn opaque, and left out where the
+    /// Like `new`, with a screen door: a triangle that is mixed by its k_t, rounded to so many bits, is drawn opaque, and left out where the
     /// [pattern](crate::dither::left_out) says so.
     #[must_use]
     pub fn with_screen_door(self, kt_bits: u32) -> Self {
@@ -79,7 +79,7 @@ impl<'a> Drawing<'a> {
         self.watched(lines, |_| {})
     }
 
-    /// The same; `watch` sees every depth test and every colour stored, in order.
+    /// Like `lines`; `watch` sees every depth test and every colour stored, in order.
     pub fn watched(&self, lines: Range<u32>, mut watch: impl FnMut(Step)) -> Picture {
         let list = &self.list;
         let (frame, width) = (list.frame(), list.frame().width);

@@ -31,7 +31,7 @@ pub struct Raster {
     pub host: Host,
     /// Where the cycles went, where a machine drew.
     pub cycles: Option<Cycles>,
-    /// The same by pass, where there is more than one.
+    /// Like `cycles`, by pass, where there is more than one.
     pub passes: Vec<Cycles>,
     /// The lights' own passes, before.
     pub lights: Vec<LightPass>,

@@ -59,7 +59,7 @@ impl Interface {
         interface
     }
 
-    /// The same for ports that somebody else declares.
+    /// Like `with_units`, for ports that somebody else declares.
     #[must_use]
     pub fn of_ports(unit: Unit, declared: &Ports) -> Interface {
         let mut interface = Interface {

@@ -51,7 +51,7 @@ pub struct Check {
     pub expected: u64,
     /// What it holds.
     pub found: u64,
-    /// The same, read with its sign.
+    /// Like `found`, read with its sign.
     pub shown: i128,
 }
 

@@ -190,7 +190,7 @@ impl<'m> Thin<'m> {
     }
 }
 
-/// The same of the line held, with its line.
+/// A pixel of a thin line as the line register holds it, with its y.
 #[derive(Clone, Copy)]
 struct HeldPixel<'m> {
     thin: Signal<'m>,

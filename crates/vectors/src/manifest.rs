@@ -248,7 +248,7 @@ pub struct Channel {
     pub moved: Option<String>,
     /// Memory file of the triangles that they belong to, in steps; null where that is not known.
     pub triangles: Option<String>,
-    /// Table for eyes; null where none is written.
+    /// Table for people; null where none is written.
     pub table: Option<String>,
 }
 
@@ -284,7 +284,7 @@ pub struct Status {
     pub tokens: String,
     /// Memory file of the cycles from which on they hold, in steps.
     pub moved: String,
-    /// Table for eyes; null where none is written.
+    /// Table for people; null where none is written.
     pub table: Option<String>,
 }
 

@@ -134,7 +134,7 @@ impl<'a> Lights<'a> {
         Lights { machine, frame, words, off, found }
     }
 
-    /// The same of what was drawn; `None` where no light counts.
+    /// Like `of`, of what was drawn; `None` where no light counts.
     pub fn drawn(
         machine: &'a Plan,
         frame: &'a Frame,

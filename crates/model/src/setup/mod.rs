@@ -270,7 +270,7 @@ pub(crate) fn prepare<const C: usize>(
     (clocks, culled)
 }
 
-/// The same with the clocks of a parallel SETUP.
+/// Like `prepare`, with the clocks of a parallel SETUP.
 fn found<const C: usize>(
     plan: &Plan,
     timing: &Timing,

@@ -54,7 +54,7 @@ impl Shares {
         self.words(numerator, Degree::Linear, &Form { bits, offset, width })
     }
 
-    /// The same of the quadratic through `vertices` and `midpoints`, each opposite the vertex of its place.
+    /// Like `plane`, of the quadratic through `vertices` and `midpoints`, each opposite the vertex of its place.
     #[must_use]
     pub fn six_point(
         &self,

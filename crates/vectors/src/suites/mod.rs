@@ -336,7 +336,7 @@ impl Suite {
         joined
     }
 
-    /// The same on a depth of half of full scale instead of full scale: then `greater` passes too.
+    /// The suite on a depth of half of full scale instead of full scale: then `greater` passes too.
     #[must_use]
     pub fn on_half_depth(self, machine: &Plan) -> Suite {
         Suite { clear_z: Some(machine.z.max().div_ceil(2)), ..self }
