@@ -25,13 +25,12 @@
 //! let m = Module::new("counter", "Counts the clocks in which step is high.");
 //! let step = m.input("step", 1);
 //! let count = m.reg("count", 8).reset(0);
-//! count.when(step, count.q() + m.constant(1, 8));
+//! count.when(step, count.q() + 1);
 //! m.output("q", count.q());
 //! let mut simulator = edgewalk_jit::Simulator::new(&m.finish()?)?;
-//! let (step, q) = (simulator.input("step")?, simulator.output("q")?);
-//! simulator.set(step, 1);
+//! simulator.set_input("step", 1)?;
 //! (0..5).for_each(|_| simulator.tick());
-//! assert_eq!(simulator.get(q), 5);
+//! assert_eq!(simulator.get("q")?, 5);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //! Next: `docs/performance.md` has the speed beside other simulators; `edgewalk render --engine jit` draws with it.

@@ -18,8 +18,8 @@
 //! let corner = |x, y, red| plan.port_vertex(x, y, &[0.5, red, 0.0, 0.0]);
 //! let triangle = [corner(3.0, 1.5, 1.0)?, corner(13.25, 4.75, 0.0)?, corner(5.5, 10.0, 0.5)?];
 //! let frame = render(&plan, [triangle], DrawState::default(), Stalls::NONE)?;
-//! assert_eq!(frame.coverage.iter().sum::<u32>(), 46);
-//! assert_eq!(frame.counters.cycles, 137);
+//! assert_eq!(frame.coverage.iter().sum::<u32>(), 39);
+//! assert_eq!(frame.counters.cycles, 130);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //! Next: [`fast`] gives the same pictures and counts without ticking; crate `lockstep` runs the netlist beside the model;

@@ -15,7 +15,7 @@
 //! let corner = |x, y, red| plan.port_vertex(x, y, &[0.5, red, 0.0, 0.0]);
 //! let triangle = [corner(3.0, 1.5, 1.0)?, corner(13.25, 4.75, 0.0)?, corner(5.5, 10.0, 0.5)?];
 //! let recording = record(&plan, &[triangle], DrawState::default(), Stalls::NONE, Window::default())?;
-//! assert_eq!(recording.cycles, 137);
+//! assert_eq!(recording.cycles, 130);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //! Next: `docs/tour.md` is drawn from recordings; `docs/replay.md` is the file format.

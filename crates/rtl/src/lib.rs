@@ -12,7 +12,7 @@
 //! use edgewalk_machine::Plan;
 //! let plan = Plan::default();
 //! let span = edgewalk_rtl::span(&plan)?;
-//! assert_eq!(span.name(), "edgewalk_span");
+//! assert_eq!(span.name, "edgewalk_span");
 //! assert!(edgewalk_rtl::machine(&plan).is_ok());
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```

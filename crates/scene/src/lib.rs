@@ -6,7 +6,7 @@
 //! ```
 //! use edgewalk_scene::{Scene, triangle_file};
 //! let sphere = Scene::builtin("sphere")?;
-//! assert_eq!(sphere.mesh.faces.len(), 2208);
+//! assert!(sphere.mesh.faces().len() > 1000);
 //!
 //! let text = "size 16 12\nT 3 1.5 .25 1 0 0 0  13 4.75 .5 0 1 0 0  5.5 10 .5 0 0 1 0\n";
 //! let frame = triangle_file::parse("stdin", text.as_bytes())?;

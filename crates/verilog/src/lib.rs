@@ -16,7 +16,7 @@
 //! use edgewalk_netlist::Module;
 //! let m = Module::new("counter", "Counts clocks.");
 //! let count = m.reg("count", 8).reset(0);
-//! count.set(count.q() + m.constant(1, 8));
+//! count.set(count.q() + 1);
 //! m.output("q", count.q());
 //! let files = edgewalk_verilog::print(&m.finish()?);
 //! assert_eq!(files[0].0, "counter.v");
