@@ -5,9 +5,10 @@
 //!
 //! ```
 //! let (name, make) = edgewalk_gallery::EXHIBITS[0];
-//! let exhibit = make();
+//! let exhibit = make()?;
 //! assert_eq!(exhibit.name, name);
 //! assert!(!exhibit.figures.is_empty() && !exhibit.views.is_empty());
+//! # Ok::<(), anyhow::Error>(())
 //! ```
 //! Next: `docs/gallery/README.md` is the page; "add an exhibit" in `docs/architecture.md` says what a new one takes.
 
