@@ -36,7 +36,7 @@ const REFUSED: [(&[&str], &[&str]); 24] = [
     ),
     (
         &["sphere", "--vary", "setup.lanes=1", "--objective", "cycles", "--objective", "cycles"],
-        &["cycles", "comes twice"],
+        &["cycles", "is given twice; give it once"],
     ),
     (&["sphere", "--vary", "setup.lanes=1", "--objective", "cylces"], &["cylces", "nearest: cycles"]),
     (&["sphere", "--vary", "setup.lanes=1", "--objective", "lut4"], &["lut4", "--synth"]),
@@ -49,7 +49,7 @@ const REFUSED: [(&[&str], &[&str]); 24] = [
     (&["sphere", "--vary", "setup.lanes=1", "--stalls", "drm"], &["drm", "nearest: dram"]),
     (&["sphere", "--vary", "setup.lanes=1", "--stalls", "fixed:rd=x"], &["rd = x", "0 to 1048576"]),
     (&["sphere", "--vary", "setup.lanes=1", "--bound", "0.4"], &["--bound 0.4", "above 0.5"]),
-    (&["sphere", "sphere", "--vary", "setup.lanes=1"], &["sphere", "comes twice"]),
+    (&["sphere", "sphere", "--vary", "setup.lanes=1"], &["sphere", "is given twice; give it once"]),
     (&["spehre", "--vary", "setup.lanes=1"], &["spehre", "sphere"]),
     (&["sphere", "--vary", "setup.lanes=1", "--shading", "wireframe"], &["wireframe", "gouraud"]),
 ];
