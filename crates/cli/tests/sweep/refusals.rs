@@ -12,7 +12,7 @@ const REFUSED: [(&[&str], &[&str]); 24] = [
     (&["sphere", "--vary", "interpolator.adders="], &["no value", "1 to 8"]),
     (&["sphere", "--vary", "formats.z_fraction=14..6"], &["empty range", "14 is above 6"]),
     (&["sphere", "--vary", "formats.z_fraction=6..40"], &["permitted from 0 to 24"]),
-    (&["sphere", "--vary", "formats.z_fraction=6..14..0"], &["step of 0"]),
+    (&["sphere", "--vary", "formats.z_fraction=6..14..0"], &["the step is 0; permitted: 1 or more"]),
     (&["sphere", "--vary", "formats.z_fraction=six..14"], &["six is no whole number"]),
     (&["sphere", "--vary", "memory.hazard=drain..forward"], &["takes words", "interlock"]),
     (&["sphere", "--vary", "setup.lanes=1,3"], &["setup.lanes = 3 is not permitted", "nearest: 2"]),

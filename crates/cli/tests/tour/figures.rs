@@ -296,8 +296,8 @@ pub const FIGURES: &[Figure] = &[
     },
     Figure {
         name: "shadow",
-        start: Fires("mdata", 0),
-        before: 4,
+        start: Fires("projected", 0),
+        before: 0,
         cycles: 9,
         width: 62,
         rows: &[
