@@ -12,6 +12,7 @@ pub mod compare;
 pub mod judge;
 pub mod emit;
 pub mod vectors;
+pub mod mutants;
 pub mod verify;
 pub mod trace;
 pub mod replay;

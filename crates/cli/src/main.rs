@@ -20,8 +20,10 @@ mod fast;
 mod fast_phong;
 mod input;
 mod jobs;
+mod junit;
 mod lamps;
 mod machine_args;
+mod own;
 mod picture;
 mod pictures;
 mod progress;
@@ -38,8 +40,8 @@ mod verdict;
 use anyhow::{Result, anyhow};
 use clap::{CommandFactory as _, Parser, Subcommand};
 use commands::{
-    bench, compare, completions, config, demo, emit, explain, gallery, judge, man, raster, render, replay,
-    size, sweep, synth, trace, vectors, verify,
+    bench, compare, completions, config, demo, emit, explain, gallery, judge, man, mutants, raster, render,
+    replay, size, sweep, synth, trace, vectors, verify,
 };
 use machine_args::MachineArgs;
 use std::io::Write as _;
@@ -89,6 +91,7 @@ enum Command {
     Emit(emit::Args),
     Vectors(vectors::Args),
     Verify(verify::Args),
+    Mutants(mutants::Args),
     Trace(trace::Args),
     Replay(replay::Args),
     Synth(synth::Args),
@@ -143,6 +146,7 @@ fn run(cli: &Cli, talk: Talk) -> Result<Verdict> {
         Command::Emit(a) => emit::run(a, &cli.machine, talk),
         Command::Vectors(a) => vectors::run(a, &cli.machine, talk),
         Command::Verify(a) => verify::run(a, &cli.machine, talk),
+        Command::Mutants(a) => mutants::run(a, &cli.machine, talk),
         Command::Trace(a) => trace::run(a, &cli.machine, talk),
         Command::Replay(a) => replay::run(a, &cli.machine, talk),
         Command::Synth(a) => synth::run(a, &cli.machine, talk),

@@ -226,6 +226,20 @@ impl Simulator {
         Ok((0..area.words).map(|index| self.state.word(*area, index)).collect())
     }
 
+    /// Puts a word into a memory, a ROM too: a fault in it.
+    ///
+    /// # Errors
+    /// If there is no such word.
+    pub fn set_word(&mut self, path: &str, address: usize, value: u128) -> Result<(), SimError> {
+        let Plan { design, layout, .. } = &self.compiled.plan;
+        let mut memories = design.memories.iter().zip(&layout.memories);
+        let found = memories.find(|(memory, area)| memory.path == path && address < area.words);
+        let (_, area) = found.ok_or_else(|| SimError::NoMemory(format!("{path}[{address}]")))?;
+        self.state.set_word(*area, address, value & mask(area.width));
+        self.change();
+        Ok(())
+    }
+
     /// Computes the outputs that follow from inputs and registers, if anything changed. Reading a signal does
     /// it too.
     pub fn eval(&mut self) {

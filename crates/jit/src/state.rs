@@ -83,7 +83,8 @@ impl State {
         self.get(place) >> shift & mask(area.width)
     }
 
-    fn set_word(&mut self, area: Area, index: usize, value: u128) {
+    /// Sets a word of a memory.
+    pub fn set_word(&mut self, area: Area, index: usize, value: u128) {
         let (place, shift) = word_place(area, index);
         let others = self.get(place) & !(mask(area.width) << shift);
         self.set(place, others | value << shift);

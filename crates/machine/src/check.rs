@@ -252,9 +252,6 @@ fn sequenced(machine: &Machine) -> Result<(), MachineError> {
     if machine.edge_kind == EdgeKind::Slope {
         return refused("edge.kind = slope, only for exact");
     }
-    if machine.polygon.has_lines() {
-        return refused("polygon.lines = yes, only for no");
-    }
     Ok(())
 }
 

@@ -77,7 +77,7 @@ pub use memory::memory;
 pub use normal::normal;
 pub use pixel::pixel;
 pub use project::project;
-pub use setup::setup;
+pub use setup::{RomWord, program_rom, setup};
 pub use shade::shade;
 pub use shadow::shadow;
 pub use span::span;

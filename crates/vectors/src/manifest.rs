@@ -33,6 +33,9 @@ pub struct Manifest {
     pub unit: String,
     /// Verilog module of the unit.
     pub module: String,
+    /// The user's design that stands for it; none: ours, in `hdl`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub dut: Option<DutInfo>,
     /// How tokens move and what a cycle is.
     pub handshake: Handshake,
     /// Where numbers are rounded, and how.
@@ -101,6 +104,58 @@ pub struct MachineInfo {
     pub hash: String,
     /// Every key of a machine file and its value, as text.
     pub settings: BTreeMap<String, String>,
+}
+
+/// A user's design.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct DutInfo {
+    /// The top module.
+    pub top: String,
+    /// The design's files, absolute.
+    pub files: Vec<String>,
+    /// Folders for its include lines, absolute.
+    pub include: Vec<String>,
+    /// The clock port, of which the rising edge counts.
+    pub clock: String,
+    /// The reset.
+    pub reset: ResetInfo,
+    /// `order`: values and their order count; `cycle`: cycles and status ports too.
+    pub compare: String,
+    /// Parameters of the top module, their values in Verilog.
+    pub parameters: BTreeMap<String, String>,
+    /// Inputs that hold one value.
+    pub tie: BTreeMap<String, u64>,
+    /// For each port of the unit, valid and ready too, its place in a port of the design.
+    pub ports: BTreeMap<String, Place>,
+    /// Ports of the unit that the design has not, and that are not compared.
+    pub absent: Vec<String>,
+}
+
+/// The reset of a user's design.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ResetInfo {
+    /// The port.
+    pub port: String,
+    /// `high` or `low`.
+    pub active: String,
+    /// `synchronous` or `asynchronous`.
+    pub kind: String,
+    /// Clocks for which it is held.
+    pub cycles: u32,
+}
+
+/// Where a value stands in a port.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Place {
+    /// The port.
+    pub port: String,
+    /// The value's lowest bit in the port.
+    pub lsb: u32,
+    /// The value's bits in the port, with those of the extension.
+    pub width: u32,
 }
 
 /// How tokens move.

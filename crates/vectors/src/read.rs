@@ -100,8 +100,11 @@ pub fn read(mut load: impl FnMut(&str) -> std::io::Result<Vec<u8>>) -> Result<Ve
     let manifest: Manifest =
         serde_json::from_slice(&json).map_err(|source| ReadError::Manifest { source })?;
     // The name goes into commands of tools.
-    if !manifest.module.chars().all(|c| c.is_ascii_alphanumeric() || c == '_') {
-        return Err(ReadError::Module { found: manifest.module });
+    let plain = |name: &str| name.chars().all(|c| c.is_ascii_alphanumeric() || "_$".contains(c));
+    let top = manifest.dut.as_ref().map(|dut| dut.top.as_str());
+    if let Some(name) = [Some(manifest.module.as_str()), top].into_iter().flatten().find(|name| !plain(name))
+    {
+        return Err(ReadError::Module { found: name.to_owned() });
     }
     for wanted in &manifest.files {
         let found = file(&wanted.name, &get(&wanted.name)?);

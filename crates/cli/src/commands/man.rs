@@ -20,7 +20,8 @@ pub struct Args {
 }
 
 /// Runs the command; `program` is the whole command line.
-pub fn run(args: &Args, mut program: clap::Command, talk: Talk) -> Result<Verdict> {
+pub fn run(args: &Args, program: clap::Command, talk: Talk) -> Result<Verdict> {
+    let mut program = program.name("edgewalk");
     program.build();
     let out = Staging::new(&args.out)?;
     let mut files = Vec::new();

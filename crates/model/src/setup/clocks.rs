@@ -124,7 +124,7 @@ impl Timing {
         }
     }
 
-    /// S of a triangle, if SETUP is sequenced; `prim` has its edges, unless it is culled.
+    /// S and L of a triangle, if SETUP is sequenced; `prim` has its edges, unless it is culled.
     #[inline(always)]
     pub(crate) fn of_program<const C: usize>(
         &self,
@@ -134,7 +134,7 @@ impl Timing {
         prim: &Prim<C>,
     ) -> Option<SetupClocks> {
         let program = self.program.as_ref()?;
-        Some(SetupClocks { phase1: program.clocks(screen, sorted, parts, prim), phase2: 0 })
+        Some(program.clocks(screen, sorted, parts, prim))
     }
 
     /// Of a triangle that is culled by lines or columns.
@@ -234,7 +234,7 @@ impl Timing {
     /// Of a triangle none of whose numbers fits, and whose factors are as long as their formats.
     fn longest(&self) -> SetupClocks {
         if let Some(program) = &self.program {
-            return SetupClocks { phase1: program.longest(), phase2: 0 };
+            return program.longest();
         }
         let edge_rounds = 3usize.div_ceil(self.lanes) as u32;
         let unsigned = self.difference - 1;

@@ -36,7 +36,7 @@ impl Screen {
 impl Screen {
     /// The first column at or right of each corner, cut to the screen.
     pub(super) fn columns<const C: usize>(self, t: u32, sorted: &Sorted<C>) -> [i64; 3] {
-        [0, 1, 2].map(|i| (-(-sorted.corners[i].u >> t)).clamp(0, self.width)) // rounded up
+        [0, 1, 2].map(|i| (-(-sorted.corners[i].u >> t)).clamp(0, self.of_role(sorted.role).width)) // rounded up
     }
 }
 

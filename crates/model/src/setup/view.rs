@@ -9,7 +9,7 @@ use edgewalk_machine::units::tokens::{EDGES, results};
 use edgewalk_machine::{Fill, PortVertex};
 
 const STATES: [&str; 4] = ["IDLE", "PHASE1", "PHASE2", "DONE"];
-const SEQUENCED_STATES: [&str; 4] = ["IDLE", "WORK", "-", "DONE"];
+const SEQUENCED_STATES: [&str; 4] = ["IDLE", "WORK", "LOAD", "DONE"];
 
 impl<const C: usize> Setup<C> {
     /// Shows the unit in a cycle with these inputs.

@@ -336,6 +336,21 @@ impl Suite {
         joined
     }
 
+    /// The cases of these names alone, with the records of their triangles, in the suite's order.
+    #[must_use]
+    pub fn only(mut self, names: &[String]) -> Suite {
+        let wanted = |case: &Case| names.contains(&case.name);
+        if let Some(records) = self.words.get(words::RECORDS) {
+            let each = (records.len() / self.triangles().count().max(1)).max(1);
+            let of = self.cases.iter().flat_map(|case| case.triangles.iter().map(|_| wanted(case)));
+            let kept = records.chunks(each).zip(of).filter(|(_, wanted)| *wanted);
+            let kept: Vec<u128> = kept.flat_map(|(record, _)| record.iter().copied()).collect();
+            self.words.insert(words::RECORDS, kept.into());
+        }
+        self.cases.retain(wanted);
+        self
+    }
+
     /// The suite on a depth of half of full scale instead of full scale: then `greater` passes too.
     #[must_use]
     pub fn on_half_depth(self, machine: &Plan) -> Suite {

@@ -16,6 +16,8 @@
 //! ```
 
 mod describe;
+mod device;
+mod dut;
 mod faults;
 mod makefile;
 pub mod mem;
@@ -26,6 +28,7 @@ mod testbench;
 pub(crate) use describe::file;
 
 use crate::capture::Trace;
+use crate::dut::Wiring;
 use crate::manifest;
 use crate::suites::Suite;
 use edgewalk_lockstep::{Direction, Interface, Pattern, Port, status_ports};
@@ -42,10 +45,33 @@ pub enum Tables {
     LeftOut,
 }
 
+/// The design that a directory is for.
+#[derive(Clone, Copy)]
+enum Design<'a> {
+    /// Verilog files of the unit, name and text; they go to `hdl/`.
+    Ours(&'a [(String, String)]),
+    /// A user's, which stays where it is.
+    Own(&'a Wiring),
+}
+
 /// The whole directory. `design` are the Verilog files of the unit, name and text; they go to `hdl/`.
 #[must_use]
 pub fn directory(suite: &Suite, trace: &Trace, design: &[(String, String)], tables: Tables) -> Files {
+    all(suite, trace, Design::Ours(design), tables)
+}
+
+/// The whole directory for a user's design, which is wired to the unit of the trace and stays where it is.
+#[must_use]
+pub fn directory_for(suite: &Suite, trace: &Trace, wiring: &Wiring, tables: Tables) -> Files {
+    all(suite, trace, Design::Own(wiring), tables)
+}
+
+fn all(suite: &Suite, trace: &Trace, design: Design, tables: Tables) -> Files {
     let interface = &trace.interface;
+    let (ours, wiring) = match design {
+        Design::Ours(files) => (files, None),
+        Design::Own(wiring) => (&[][..], Some(wiring)),
+    };
     let mut files: Vec<(String, String)> = Vec::new();
     let mut add = |name: String, text: String| files.push((name, text));
     let with_triangles: Vec<&str> = known(trace).collect();
@@ -79,28 +105,37 @@ pub fn directory(suite: &Suite, trace: &Trace, design: &[(String, String)], tabl
         }
     }
     let stamp = trace.plan.stamp("//");
-    add("params.vh".to_owned(), format!("{stamp}\n{}", params::params(trace)));
+    add("params.vh".to_owned(), format!("{stamp}\n{}", params::params(trace, wiring)));
     add("cases.vh".to_owned(), format!("{stamp}\n{}", faults::cases(suite)));
     // All that the bench reads is there.
     let sums = sums(&files);
     let mut add = |name: String, text: String| files.push((name, text));
     add("SHA256SUMS".to_owned(), sums);
 
-    let hdl: Vec<String> = design.iter().map(|(name, _)| format!("hdl/{name}")).collect();
-    for (name, (_, text)) in hdl.iter().zip(design) {
-        add(name.clone(), text.clone());
+    let module = interface.unit.module();
+    let sources = match wiring {
+        None => {
+            let hdl = ours.iter().map(|(name, _)| format!("hdl/{name}")).collect();
+            makefile::Sources { top: &module, hdl, dut: None }
+        }
+        Some(Wiring { dut, .. }) => {
+            let hdl = dut.files.iter().map(|file| file.display().to_string()).collect();
+            makefile::Sources { top: &dut.top, hdl, dut: Some(dut) }
+        }
+    };
+    for (name, text) in ours {
+        add(format!("hdl/{name}"), text.clone());
     }
-    for (name, text) in testbench::MODULES {
+    for (name, text) in testbench::MODULES.into_iter().chain(wiring.map(|_| testbench::OWN_MODULE)) {
         add(name.to_owned(), format!("{stamp}\n{text}"));
     }
-    add("tb.v".to_owned(), format!("{stamp}\n{}", testbench::testbench(interface, &with_triangles)));
-    add("filelist.f".to_owned(), stamp + &makefile::filelist(&hdl));
-    let makefile = makefile::makefile(&interface.unit.module(), &hdl);
-    add("Makefile".to_owned(), trace.plan.stamp("#") + &makefile);
+    add("tb.v".to_owned(), format!("{stamp}\n{}", testbench::testbench(interface, &with_triangles, wiring)));
+    add("filelist.f".to_owned(), stamp + &sources.filelist());
+    add("Makefile".to_owned(), trace.plan.stamp("#") + &sources.makefile());
     add(manifest::SCHEMA_FILE.to_owned(), manifest::SCHEMA.to_owned());
 
     let mut files: Files = files.into_iter().map(|(name, text)| (name, text.into_bytes())).collect();
-    let manifest = describe::manifest(suite, trace, &files, tables);
+    let manifest = describe::manifest(suite, trace, wiring, &files, tables);
     // A manifest is plain data with text keys: it always becomes JSON.
     let mut json = serde_json::to_string_pretty(&manifest).unwrap_or_default();
     json.push('\n');
