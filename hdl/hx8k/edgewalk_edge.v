@@ -77,12 +77,12 @@ module edgewalk_edge (
   output wire [21:0] inc_b              // UQ8.14 LSB, modular
 );
 
-  // A triangle is taken when it is walked and PIXEL has its increments: till then its registers are read.
+  // A triangle is taken when it is walked and PIXEL has its increments; until then EDGE reads SETUP's registers.
   reg running;
   reg last;    // last line of all
   wire step = running && line_ready;
   wire at_end = step && last;
-  reg walked;  // the triangle has been walked, and is not taken yet
+  reg walked;  // the triangle is walked, and not taken yet
   reg idle;    // neither running nor walked
   assign prim_ready = walked && !fresh_queued;
   wire load = idle && prim_valid;
@@ -118,7 +118,7 @@ module edgewalk_edge (
   // Where in the triangle: the upper part, then the lower.
   reg [9:0] n1;   // lines left of the upper part
   reg [9:0] n2;   // lines left of the lower part
-  reg exchanges;  // idle, or at the knee: another minor edge comes, and no step
+  reg exchanges;  // idle, or at the knee: the minor edge is loaded, not stepped
   reg upper;      // in the upper part
   wire some_lower = |n2;
   wire two_upper = n1 == 10'd2;

@@ -19,3 +19,5 @@ pub mod replay;
 pub mod synth;
 pub mod bench;
 pub mod config;
+pub mod completions;
+pub mod man;

@@ -4,6 +4,9 @@
 //!  scene | mesh | triangle file ──> input ──> engine (golden, model, rtl) ──> compare ──> report, pictures, arrays
 //!  machine file, preset, --set  ──> machine_args ──┘
 //! ```
+//!
+//! Its commands are the crates of this workspace, one thin file a command: `edgewalk --help`. A program of one's own
+//! depends on the crates, not on this one; `docs/architecture.md` says which does what.
 
 #![deny(clippy::print_stdout, clippy::print_stderr)] // they panic where they cannot write; see talk.rs
 
@@ -35,10 +38,10 @@ mod triangles;
 mod verdict;
 
 use anyhow::{Result, anyhow};
-use clap::{Parser, Subcommand};
+use clap::{CommandFactory as _, Parser, Subcommand};
 use commands::{
-    bench, compare, config, demo, emit, explain, gallery, judge, mutants, raster, render, replay, size,
-    sweep, synth, trace, vectors, verify,
+    bench, compare, completions, config, demo, emit, explain, gallery, judge, man, mutants, raster, render,
+    replay, size, sweep, synth, trace, vectors, verify,
 };
 use machine_args::MachineArgs;
 use std::io::Write as _;
@@ -94,6 +97,8 @@ enum Command {
     Synth(synth::Args),
     Bench(bench::Args),
     Config(config::Args),
+    Completions(completions::Args),
+    Man(man::Args),
 }
 
 fn main() -> ExitCode {
@@ -147,6 +152,8 @@ fn run(cli: &Cli, talk: Talk) -> Result<Verdict> {
         Command::Synth(a) => synth::run(a, &cli.machine, talk),
         Command::Bench(a) => bench::run(a, &cli.machine, talk),
         Command::Config(a) => config::run(a, &cli.machine, talk),
+        Command::Completions(a) => completions::run(a, Cli::command(), talk),
+        Command::Man(a) => man::run(a, Cli::command(), talk),
     }
 }
 

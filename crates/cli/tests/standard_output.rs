@@ -9,7 +9,7 @@ use std::path::Path;
 use std::process::Stdio;
 
 /// A quick run of each command, as text; those with a report also come with --json.
-pub const COMMANDS: [&[&str]; 22] = [
+pub const COMMANDS: [&[&str]; 24] = [
     &["demo", "d.tri", "--out", "demo"],
     &["render", "d.tri", "--out", "render"],
     &["render", "sphere", "--engine", "golden", "--out", "shaded"],
@@ -32,6 +32,8 @@ pub const COMMANDS: [&[&str]; 22] = [
     &["config", "print"],
     &["config", "check"],
     &["config", "explain"],
+    &["completions", "bash"],
+    &["man", "--out", "man"],
 ];
 
 /// On the screen of the file; `raster`, `bench` and `gallery` take no word of the screen or have their own.

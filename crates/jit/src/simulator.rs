@@ -32,7 +32,7 @@ pub struct Simulator {
     state: State,
     /// An input or a register changed since the outputs were computed.
     outputs_stale: bool,
-    /// The same for all signals.
+    /// Like `outputs_stale`, for all signals.
     signals_stale: bool,
 }
 

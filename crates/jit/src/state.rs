@@ -33,7 +33,7 @@ impl State {
         state
     }
 
-    /// These units work on.
+    /// Marks these units as working.
     pub fn wake(&mut self, layout: &Layout, wakes: &Wakes, units: u64) {
         wakes.units(units).for_each(|(unit, clocks)| self.set_byte(layout.counters as usize + unit, clocks));
     }

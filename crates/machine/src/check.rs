@@ -27,8 +27,7 @@ pub(crate) fn check(machine: &Machine, channels: &[Channel]) -> Result<(), Machi
         return Err(MachineError::rule(
             machine,
             "texture.kind",
-            "tables hold the colour, so nobody would see the texel's; or set shade.colour = multiply"
-                .to_owned(),
+            "a texture has no effect while shade.colour = tables; or set shade.colour = multiply".to_owned(),
             "none".to_owned(),
         ));
     }
@@ -45,7 +44,7 @@ pub(crate) fn check(machine: &Machine, channels: &[Channel]) -> Result<(), Machi
             machine,
             "shadow.depth_bits",
             format!(
-                "with a share of {} bits, those of a colour, a word of the map would have {map_word}, {MAP_BITS} is the most",
+                "a word of the map would have {map_word} bits, {} of them for the share of light; permitted: at most {MAP_BITS}",
                 machine.color.bits
             ),
             (MAP_BITS - machine.color.bits).to_string(),

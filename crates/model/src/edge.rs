@@ -32,7 +32,7 @@ pub struct Edge<const C: usize> {
     running: bool,
     /// A prim stays at the port while it is walked.
     stays: bool,
-    /// It is walked, and not taken yet.
+    /// The triangle is walked, and not taken yet.
     walked: bool,
     /// The line offered: y, columns C of both edges, values, marks.
     line: Line<C>,

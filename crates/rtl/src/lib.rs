@@ -7,6 +7,16 @@
 //! A function a unit takes a [`Plan`](edgewalk_machine::Plan), the checked machine, and builds the unit's netlist with the ports
 //! that [`edgewalk_machine::UNITS`] declares; [`BUILDERS`] lists the functions, [`machine`] joins what they build.
 //! What it does not know: the model, files, Verilog text.
+//!
+//! ```
+//! use edgewalk_machine::Plan;
+//! let plan = Plan::default();
+//! let span = edgewalk_rtl::span(&plan)?;
+//! assert_eq!(span.name, "edgewalk_span");
+//! assert!(edgewalk_rtl::machine(&plan).is_ok());
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//! Next: crate `verilog` prints a netlist; crate `lockstep` runs it beside the model; `docs/adding_a_unit.md` adds a unit.
 
 mod wires;
 mod ports;

@@ -5,6 +5,17 @@
 //! ```
 //! A check that compared nothing has failed: whatever compares here says how much it compared. Only [`simulate()`] and
 //! [`dut`] do I/O; directories are made and read in memory.
+//!
+//! ```
+//! use edgewalk_machine::{DrawState, Machine};
+//! use edgewalk_vectors::{StallKind, Suite, Unit, capture};
+//! let plan = Machine { width: 32, height: 24, ..Machine::default() }.plan()?;
+//! let suite = Suite::named(&plan, "corners", 1, 10)?;
+//! let trace = capture(&plan, Unit::MACHINE, &suite, DrawState::default(), StallKind::None);
+//! assert!(trace.expected() > 0);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//! Next: `docs/tutorial/your_rtl.md` takes such vectors to a design of one's own; [`directory`] makes the files.
 
 pub mod suites;
 pub mod capture;

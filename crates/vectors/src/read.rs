@@ -21,7 +21,7 @@ pub enum ReadError {
     /// A file cannot be had.
     #[error("{file}: {source}")]
     Io {
-        /// Its name.
+        /// Name of the file.
         file: String,
         /// What the system says.
         source: std::io::Error,
@@ -45,7 +45,7 @@ pub enum ReadError {
         manifest::VERSION
     )]
     Version {
-        /// Its version.
+        /// Version of the file.
         found: u64,
     },
     /// The module is no name.
@@ -57,7 +57,7 @@ pub enum ReadError {
     /// A file is not the one that was written.
     #[error("{file}: {found}, the manifest says {wanted}")]
     Changed {
-        /// Its name.
+        /// Name of the file.
         file: String,
         /// Length or hash.
         found: String,
@@ -67,7 +67,7 @@ pub enum ReadError {
     /// A memory file does not hold what the manifest says.
     #[error("{file} line {line}: {reason}")]
     Token {
-        /// Its name.
+        /// Name of the file.
         file: String,
         /// From 1.
         line: usize,

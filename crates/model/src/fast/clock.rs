@@ -33,7 +33,7 @@ use edgewalk_machine::{Activity, Hazard, Plan};
 struct LastRead {
     /// Cycle of its read.
     cycle: u64,
-    /// It passes the depth test, and so is in w a cycle longer.
+    /// The fragment passes the depth test, and so is in w a cycle longer.
     passed: bool,
 }
 

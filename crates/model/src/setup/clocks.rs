@@ -38,7 +38,7 @@ const FITS: u32 = 1;
 const BEHIND: u32 = 4;
 /// From the first clock of a triangle until the area is known and scaled, less the bits of dv2 and the scale.
 const AREA: u32 = 4;
-/// The same behind gx of a round, for the next.
+/// Like `AREA`, behind gx of a round, for the next.
 const NEXT_SCALE: u32 = 4;
 
 /// The channels that the lanes do side by side.

@@ -254,7 +254,7 @@ pub enum Culled {
     Lines,
     /// No column (exact fill).
     Columns,
-    /// Its area is 0.
+    /// The triangle's area is 0.
     Area,
 }
 
@@ -305,7 +305,7 @@ pub(crate) fn prepare<const C: usize>(
     (clocks, culled)
 }
 
-/// The same with the clocks of a parallel SETUP.
+/// Like `prepare`, with the clocks of a parallel SETUP.
 fn found<const C: usize>(
     plan: &Plan,
     timing: &Timing,

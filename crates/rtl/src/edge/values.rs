@@ -35,7 +35,7 @@ pub(super) fn values<'m>(
         }
     }
     if plan.fill == Fill::Exact {
-        m.comment("Between triangles what is added is the start: it needs no choice behind the adder.");
+        m.comment("While idle, the addend is the start value. `running ? a + b : b` costs no multiplexer: the selection fits the adder's own LUT.");
     }
     for channel in plan.channels().iter().map(|channel| channel.name) {
         let of_prim = |result: &str| prim[format!("{channel}_{result}").as_str()];

@@ -57,7 +57,7 @@ impl<'m> Walk<'m> {
         let n1 = m.reg("n1", prim["n1"].width()).doc("lines left of the upper part");
         let n2 = m.reg("n2", prim["n2"].width()).doc("lines left of the lower part");
         let exchanges =
-            m.reg("exchanges", 1).doc("idle, or at the knee: another minor edge comes, and no step").reset(1);
+            m.reg("exchanges", 1).doc("idle, or at the knee: the minor edge is loaded, not stepped").reset(1);
         let parts = Parts { of_line: [n1, n2].map(Reg::q), of_prim: [prim["n1"], prim["n2"]] };
         let Place { upper, first_knee, next_knee } = Place::new(m, last, &parts, idle, moves);
         exchanges.when(moves, idle.mux(!load | first_knee, last.q() | next_knee));
@@ -96,9 +96,8 @@ impl<'m> Start<'m> {
         let prim_ready = (!running.q() & !fresh_queued).named("prim_ready");
         let load = (prim_valid & prim_ready).named("load");
         let step = (running.q() & line_ready).named("step");
-        m.comment("Between triangles everything takes the next one as soon as it is there, and again till PIXEL has the increments: no enable waits for that.");
-        let idle =
-            m.reg("idle", 1).doc("not running: for what is loaded, as running is for the values").reset(1);
+        m.comment("Between triangles the registers load the next triangle in every clock until PIXEL has taken the increments, so they need no enable.");
+        let idle = m.reg("idle", 1).doc("not running; selects what the registers load").reset(1);
         let at_end = (step & last.q()).named("at_end");
         running.when(at_end, 0).when(load, 1);
         idle.when(at_end, 1).when(load, 0);
@@ -108,12 +107,12 @@ impl<'m> Start<'m> {
     /// A triangle stays at the port while it is walked: SETUP keeps what does not step.
     fn staying(m: &'m Module, links: &Links<'m>) -> Start<'m> {
         let Links { prim_valid, line_ready, fresh_queued } = *links;
-        m.comment("A triangle is taken when it is walked and PIXEL has its increments: till then its registers are read.");
+        m.comment("A triangle is taken when it is walked and PIXEL has its increments; until then EDGE reads SETUP's registers.");
         let running = m.reg("running", 1).reset(0);
         let last = m.reg("last", 1).doc("last line of all");
         let step = (running.q() & line_ready).named("step");
         let at_end = (step & last.q()).named("at_end");
-        let walked = m.reg("walked", 1).doc("the triangle has been walked, and is not taken yet").reset(0);
+        let walked = m.reg("walked", 1).doc("the triangle is walked, and not taken yet").reset(0);
         let idle = m.reg("idle", 1).doc("neither running nor walked").reset(1);
         let prim_ready = (walked.q() & !fresh_queued).named("prim_ready");
         let load = (idle.q() & prim_valid).named("load");

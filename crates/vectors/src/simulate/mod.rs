@@ -47,7 +47,7 @@ pub enum Outcome {
     Mismatch {
         /// Tokens and status changes that came.
         checked: u64,
-        /// Those that should have come.
+        /// Tokens that should have come.
         expected: u64,
         /// What the test bench says first.
         lines: Vec<String>,

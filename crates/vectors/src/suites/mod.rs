@@ -75,7 +75,7 @@ pub struct Suite {
 
 /// A suite that comes with the program.
 pub struct Entry {
-    /// Its name.
+    /// Name of the suite.
     pub name: &'static str,
     /// What it is for.
     pub about: &'static str,
@@ -118,7 +118,7 @@ const fn function(name: &'static str, about: &'static str, depth_func: u8, depth
 }
 
 impl Entry {
-    /// It says something about this machine.
+    /// Whether the suite says something about this machine.
     #[must_use]
     pub fn is_for(&self, machine: &Plan) -> bool {
         match self.kind {
@@ -323,7 +323,7 @@ impl Suite {
         }
     }
 
-    /// It says something about the unit.
+    /// Whether the suite says something about the unit.
     #[must_use]
     pub fn is_for(&self, unit: Unit) -> bool {
         self.units.is_empty() || self.units.contains(&unit)
@@ -366,7 +366,7 @@ impl Suite {
         self
     }
 
-    /// The same on a depth of half of full scale instead of full scale: then `greater` passes too.
+    /// The suite on a depth of half of full scale instead of full scale: then `greater` passes too.
     #[must_use]
     pub fn on_half_depth(self, machine: &Plan) -> Suite {
         Suite { clear_z: Some(machine.z.max().div_ceil(2)), ..self }

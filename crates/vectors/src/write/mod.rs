@@ -9,7 +9,7 @@
 //!  status.exp.mem     status.cyc.mem        outputs compared in every cycle, where they change
 //!  <memory>.start.mem                       the words of a memory that nobody writes
 //!  <channel>.willing.mem                    when the bench offers and takes
-//!  *.csv                                    all of this for eyes, unless left out
+//!  *.csv                                    all of this as tables for people, unless left out
 //!  params.vh  cases.vh  tb.v  bench_*.v     the test bench
 //!  hdl/*.v  filelist.f  Makefile            the design, and how to run it
 //!  SHA256SUMS                               of what the bench reads; `make` looks at it first
@@ -36,7 +36,7 @@ use edgewalk_lockstep::{Direction, Interface, Pattern, Port, status_ports};
 /// Files to be written: name relative to the directory, contents.
 pub type Files = Vec<(String, Vec<u8>)>;
 
-/// The tables for eyes: more than half of a directory's bytes.
+/// The tables for people: more than half of a directory's bytes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Tables {
     /// A CSV file for each channel, and one for the status.
@@ -48,7 +48,7 @@ pub enum Tables {
 /// The design that a directory is for.
 #[derive(Clone, Copy)]
 enum Design<'a> {
-    /// These Verilog files of the unit, name and text; they go to `hdl/`.
+    /// Verilog files of the unit, name and text; they go to `hdl/`.
     Ours(&'a [(String, String)]),
     /// A user's, which stays where it is.
     Own(&'a Wiring),

@@ -139,7 +139,7 @@ pub(super) fn rom<'m>(m: &'m Module, program: &Program, next: Signal<'m>) -> Dec
 pub struct RomWord {
     /// The word's line of the listing.
     pub text: String,
-    /// Its bits.
+    /// Bits of the code.
     pub code: u128,
     /// The bits that something depends on; the others do not care.
     pub used: u128,
