@@ -16,5 +16,6 @@ pub mod verify;
 pub mod trace;
 pub mod replay;
 pub mod synth;
+pub mod energy;
 pub mod bench;
 pub mod config;

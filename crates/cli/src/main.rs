@@ -35,8 +35,8 @@ mod verdict;
 use anyhow::{Result, anyhow};
 use clap::{Parser, Subcommand};
 use commands::{
-    bench, compare, config, demo, emit, explain, gallery, judge, raster, render, replay, size, sweep, synth,
-    trace, vectors, verify,
+    bench, compare, config, demo, emit, energy, explain, gallery, judge, raster, render, replay, size, sweep,
+    synth, trace, vectors, verify,
 };
 use machine_args::MachineArgs;
 use std::io::Write as _;
@@ -89,6 +89,7 @@ enum Command {
     Trace(trace::Args),
     Replay(replay::Args),
     Synth(synth::Args),
+    Energy(energy::Args),
     Bench(bench::Args),
     Config(config::Args),
 }
@@ -141,6 +142,7 @@ fn run(cli: &Cli, talk: Talk) -> Result<Verdict> {
         Command::Trace(a) => trace::run(a, &cli.machine, talk),
         Command::Replay(a) => replay::run(a, &cli.machine, talk),
         Command::Synth(a) => synth::run(a, &cli.machine, talk),
+        Command::Energy(a) => energy::run(a, &cli.machine, talk),
         Command::Bench(a) => bench::run(a, &cli.machine, talk),
         Command::Config(a) => config::run(a, &cli.machine, talk),
     }

@@ -10,6 +10,7 @@ mod compare;
 mod demo;
 mod dither;
 mod documents;
+mod energy;
 mod explain;
 mod extra;
 mod fast_phong;
