@@ -70,7 +70,11 @@ fn every_figure_of_energy_follows_from_the_others() {
     // The text says the same; a second run takes the gates from the cache and gives the same digits.
     let text = energy(folder.path(), &["--mhz", "50"]);
     for figure in [
-        format!("area {:.3} mm2, {:.1} thousand gates", number(&report["area_um2"]) / 1e6, number(&report["kge"])),
+        format!(
+            "area {:.3} mm2, {:.1} thousand gates",
+            number(&report["area_um2"]) / 1e6,
+            number(&report["kge"])
+        ),
         format!("clock {:.3} ns", number(&report["ns"])),
         format!("power {:.2} mW at 50.0 MHz", watts * 1e3),
         format!("energy {:.1} pJ a cycle", number(&energies["cycle_pj"])),
@@ -111,12 +115,18 @@ fn pairs_of_machines_are_ordered_as_expected() {
     let folder = tempfile::tempdir().unwrap();
     let pj = |set: &[&str]| {
         let sets: Vec<&str> = set.iter().flat_map(|set| ["--set", *set]).collect();
-        let words = [&["energy", "sphere", "--triangles", "100", "--json", "--cache", "cache"][..], &sets].concat();
+        let words =
+            [&["energy", "sphere", "--triangles", "100", "--json", "--cache", "cache"][..], &sets].concat();
         let output = edgewalk(folder.path(), &words).output().unwrap();
         assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
         let report: Value = serde_json::from_slice(&output.stdout).unwrap();
         let [frame, watts] = [&report["energy"]["frame_pj"], &report["power"]["watts"]].map(number);
-        println!("{set:?}: {:.1} nJ a frame, {:.2} mW, {:.1} kGE", frame / 1e3, watts * 1e3, number(&report["kge"]));
+        println!(
+            "{set:?}: {:.1} nJ a frame, {:.2} mW, {:.1} kGE",
+            frame / 1e3,
+            watts * 1e3,
+            number(&report["kge"])
+        );
         [frame, number(&report["energy"]["cycle_pj"])]
     };
     let default = pj(&[]);

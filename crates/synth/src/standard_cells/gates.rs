@@ -103,7 +103,8 @@ pub fn gates(design: &Design, library: &Library, cache: &Cache, limit: Duration)
     })?;
     let modules: BTreeMap<String, Module> = serde_json::from_str(&text(&folder.join(MODULES))?)
         .map_err(|error| Stop::broken(MODULES, &error.into()))?;
-    let verilog = folder.join(VERILOG);
+    // Absolute: OpenSTA works in another folder.
+    let verilog = std::path::absolute(folder.join(VERILOG)).map_err(|error| Stop::broken(VERILOG, &error))?;
     let timing = cache.step(&[&key[..], &[&*sta]].concat(), &[TIMING], |folder| {
         let script =
             format!("{}report_checks -path_delay max -digits 4\n", opened(library, &verilog, top, PERIOD));

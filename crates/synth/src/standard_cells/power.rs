@@ -52,6 +52,7 @@ pub fn power(
     cache: &Cache,
     limit: Duration,
 ) -> Result<Power, Stop> {
+    // The documented command `set_power_activity -pins` of version 2.0.17 fails, so those beneath it are called.
     let mut script = opened(library, &gates.verilog, &gates.top, period);
     for input in &gates.modules[&gates.top].inputs {
         if let Some(Activity { transitions, high }) = activity.get(input) {
@@ -59,7 +60,7 @@ pub fn power(
             // Writing to a string cannot fail.
             _ = writeln!(
                 script,
-                "set_power_activity -input_ports {{{port}}} -activity {transitions:.9} -duty {high:.9}"
+                "sta::set_power_input_port_activity [get_ports {{{port}}}] {transitions:.9} {high:.9}"
             );
         }
     }
@@ -70,7 +71,7 @@ pub fn power(
             counted += 1;
             _ = writeln!(
                 script,
-                "set_power_activity -pins [get_pins {cell}/Q] -activity {transitions:.9} -duty {high:.9}"
+                "sta::set_power_pin_activity [get_pins {cell}/Q] {transitions:.9} {high:.9}"
             );
         }
     });
