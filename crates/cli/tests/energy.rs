@@ -17,9 +17,9 @@ const SMALL: [&str; 8] = [
     "setup.lanes=1",
 ];
 
-/// What the command prints for two triangles of the sphere, with these words more.
+/// What the command prints for 300 triangles of the sphere, with these words more.
 fn energy(folder: &Path, more: &[&str]) -> String {
-    let words = [&["energy", "sphere", "--triangles", "2", "--cache", "cache"][..], &SMALL, more].concat();
+    let words = [&["energy", "sphere", "--triangles", "300", "--cache", "cache"][..], &SMALL, more].concat();
     let output = edgewalk(folder, &words).output().unwrap();
     assert!(output.status.success(), "{words:?}: {}", String::from_utf8_lossy(&output.stderr));
     String::from_utf8(output.stdout).unwrap()
@@ -60,7 +60,7 @@ fn every_figure_of_energy_follows_from_the_others() {
     assert!(counted * 20 >= report["flip_flops"].as_u64().unwrap() * 19, "{counted} were counted");
     let frame_pj = watts / 50e6 * 1e12 * number(&frame["cycles"]);
     assert!(near(frame_pj, number(&energies["frame_pj"])));
-    assert_eq!(frame["triangles"], 2);
+    assert_eq!(frame["triangles"], 300);
     for (each, count) in [("cycle_pj", "cycles"), ("triangle_pj", "triangles"), ("pixel_pj", "writes")] {
         assert!(near(number(&energies[each]), frame_pj / number(&frame[count])), "{each}");
     }
@@ -78,7 +78,7 @@ fn every_figure_of_energy_follows_from_the_others() {
         format!("clock {:.3} ns", number(&report["ns"])),
         format!("power {:.2} mW at 50.0 MHz", watts * 1e3),
         format!("energy {:.1} pJ a cycle", number(&energies["cycle_pj"])),
-        format!("{:.1} pJ a triangle, of 2", number(&energies["triangle_pj"])),
+        format!("{:.1} pJ a triangle, of 300", number(&energies["triangle_pj"])),
         format!("{:.1} pJ a pixel written, of {}", number(&energies["pixel_pj"]), frame["writes"]),
     ] {
         assert!(text.contains(&figure), "{figure} is missing in\n{text}");
