@@ -84,8 +84,8 @@ module edgewalk_edge (
   wire load = prim_valid && prim_ready;
   wire step = running && line_ready;
 
-  // Between triangles everything takes the next one as soon as it is there, and again till PIXEL has the increments: no enable waits for that.
-  reg idle;                           // not running: for what is loaded, as running is for the values
+  // Between triangles the registers load the next triangle in every clock until PIXEL has taken the increments, so they need no enable.
+  reg idle;                           // not running; selects what the registers load
   wire at_end = step && last;
   wire offered = idle && prim_valid;  // the next triangle is there
   wire moves = idle ? prim_valid : line_ready;
@@ -109,7 +109,7 @@ module edgewalk_edge (
   // Where in the triangle: the upper part, then the lower.
   reg [9:0] n1;   // lines left of the upper part
   reg [9:0] n2;   // lines left of the lower part
-  reg exchanges;  // idle, or at the knee: another minor edge comes, and no step
+  reg exchanges;  // idle, or at the knee: the minor edge is loaded, not stepped
   reg upper;      // in the upper part
   wire some_lower = |n2;
   wire two_upper = n1 == 10'd2;
@@ -232,7 +232,7 @@ module edgewalk_edge (
     end
   end
 
-  // Between triangles what is added is the start: it needs no choice behind the adder.
+  // While idle, the addend is the start value. `running ? a + b : b` costs no multiplexer: the selection fits the adder's own LUT.
   reg [37:0] z_d0;  // as in the triangle
   reg [37:0] z_d1;  // as in the triangle
   wire [37:0] z_added = idle ? prim_z_start : carry ? z_d1 : z_d0;

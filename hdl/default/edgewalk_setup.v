@@ -114,12 +114,12 @@ module edgewalk_setup (
   wire [4:0] top_digit;  // place of the first digit of a sum
   reg [1:0] state;
   reg [4:0] at;          // operation
-  reg [4:0] left;        // its clocks after this one
-  reg first;             // its first clock, but for that of a triangle
+  reg [4:0] left;        // clocks of the operation after this one
+  reg first;             // first clock of an operation, except of a triangle's first
 
-  // Numbers that do not fit hold up what follows: two clocks, and one for two digits.
-  reg [3:0] pause;                           // clocks left of it
-  reg paused;                                // it is not over
+  // A number outside ±M pauses the sequence for two clocks, plus one for each pair of digits.
+  reg [3:0] pause;                           // clocks of the pause that are left
+  reg paused;                                // the operation is not over
   wire advance = !paused;
   assign tri_ready = state == IDLE;
   wire take = tri_valid && tri_ready;
@@ -236,9 +236,9 @@ module edgewalk_setup (
   reg [21:0] p1_v;      // Q14.8, signed
   reg [21:0] p2_u;      // Q14.8, signed
   reg [21:0] p2_v;      // Q14.8, signed
-  reg [1:0] p0_vertex;  // whose values are those at this place
-  reg [1:0] p1_vertex;  // whose values are those at this place
-  reg [1:0] p2_vertex;  // whose values are those at this place
+  reg [1:0] p0_vertex;  // the vertex at this place: 0, 1 or 2
+  reg [1:0] p1_vertex;  // the vertex at this place: 0, 1 or 2
+  reg [1:0] p2_vertex;  // the vertex at this place: 0, 1 or 2
   wire both = y1_above_y0 && !y2_above_y1;
   wire both_2 = y2_above_y0 && y2_above_y1;
   wire both_3 = !y1_above_y0 && y2_above_y1;
@@ -260,7 +260,7 @@ module edgewalk_setup (
     end
   end
 
-  // The values at the vertices, as they came.
+  // Values at the vertices, as tri has them.
   reg [27:0] vertex0_z;  // UQ24.4 LSB
   reg [11:0] vertex0_r;  // UQ8.4 LSB
   reg [11:0] vertex0_g;  // UQ8.4 LSB
@@ -378,8 +378,8 @@ module edgewalk_setup (
   reg [27:0] differences;  // their bits, or those of complements
   reg [44:0] scaled;       // -M or -M - 1, signed
   reg scale_taken;         // the area is taken
-  reg scaling;             // it is compared
-  reg [3:0] scale_next;    // times that it is fourfold
+  reg scaling;             // the scaled modulus is compared with the differences
+  reg [3:0] scale_next;    // how many times the modulus is multiplied by 4
   wire [45:0] less_m = {{17'd0, differences}, 1'b1} + {scaled, 1'b1};  // and a carry out of the lowest bit
   wire [44:0] part_21 = less_m[45:1];
   wire fits = (|area) ? part_21[44] : 1'b1;
@@ -545,7 +545,7 @@ module edgewalk_setup (
     end
   end
 
-  // What all lanes do.
+  // Commands of all lanes.
   wire either_3 = (at == TAKE_DX)
                || (at == TAKE_DY)
                || (at == TAKE12)
@@ -636,7 +636,7 @@ module edgewalk_setup (
     step_next3 <= step3;
   end
 
-  // What the lanes are shown in the next clock.
+  // Inputs of the lanes in the next clock.
   reg [1:0] from_place;
   wire [1:0] from_vertex = (from_place == 2'd2) ? p2_vertex
                          : (from_place == 2'd1) ? p1_vertex

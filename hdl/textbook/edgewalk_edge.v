@@ -85,8 +85,8 @@ module edgewalk_edge (
   wire load = prim_valid && prim_ready;
   wire step = running && line_ready;
 
-  // Between triangles everything takes the next one as soon as it is there, and again till PIXEL has the increments: no enable waits for that.
-  reg idle;                           // not running: for what is loaded, as running is for the values
+  // Between triangles the registers load the next triangle in every clock until PIXEL has taken the increments, so they need no enable.
+  reg idle;                           // not running; selects what the registers load
   wire at_end = step && last;
   wire offered = idle && prim_valid;  // the next triangle is there
   wire moves = idle ? prim_valid : line_ready;
@@ -110,7 +110,7 @@ module edgewalk_edge (
   // Where in the triangle: the upper part, then the lower.
   reg [9:0] n1;   // lines left of the upper part
   reg [9:0] n2;   // lines left of the lower part
-  reg exchanges;  // idle, or at the knee: another minor edge comes, and no step
+  reg exchanges;  // idle, or at the knee: the minor edge is loaded, not stepped
   reg upper;      // in the upper part
   wire some_lower = |n2;
   wire two_upper = n1 == 10'd2;

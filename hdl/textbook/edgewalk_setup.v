@@ -123,13 +123,13 @@ module edgewalk_setup (
   wire [4:0] top_digit;  // place of the first digit of a sum
   reg [1:0] state;
   reg [4:0] at;          // operation
-  reg [4:0] left;        // its clocks after this one
-  reg first;             // its first clock, but for that of a triangle
+  reg [4:0] left;        // clocks of the operation after this one
+  reg first;             // first clock of an operation, except of a triangle's first
   reg [1:0] round;       // of the jobs the lanes do in turn
 
-  // Numbers that do not fit hold up what follows: two clocks, and one for two digits.
-  reg [3:0] pause;                           // clocks left of it
-  reg paused;                                // it is not over
+  // A number outside ±M pauses the sequence for two clocks, plus one for each pair of digits.
+  reg [3:0] pause;                           // clocks of the pause that are left
+  reg paused;                                // the operation is not over
   wire advance = !paused;
   assign tri_ready = state == IDLE;
   wire take = tri_valid && tri_ready;
@@ -287,9 +287,9 @@ module edgewalk_setup (
   reg [14:0] p1_v;      // Q14.1, signed
   reg [14:0] p2_u;      // Q14.1, signed
   reg [14:0] p2_v;      // Q14.1, signed
-  reg [1:0] p0_vertex;  // whose values are those at this place
-  reg [1:0] p1_vertex;  // whose values are those at this place
-  reg [1:0] p2_vertex;  // whose values are those at this place
+  reg [1:0] p0_vertex;  // the vertex at this place: 0, 1 or 2
+  reg [1:0] p1_vertex;  // the vertex at this place: 0, 1 or 2
+  reg [1:0] p2_vertex;  // the vertex at this place: 0, 1 or 2
   wire both = y1_above_y0 && !y2_above_y1;
   wire both_2 = y2_above_y0 && y2_above_y1;
   wire both_3 = !y1_above_y0 && y2_above_y1;
@@ -311,7 +311,7 @@ module edgewalk_setup (
     end
   end
 
-  // The values at the vertices, as they came.
+  // Values at the vertices, as tri has them.
   reg [15:0] vertex0_z;  // UQ16.0 LSB
   reg [7:0] vertex0_r;   // UQ8.0 LSB
   reg [7:0] vertex0_g;   // UQ8.0 LSB
@@ -416,8 +416,8 @@ module edgewalk_setup (
   reg [15:0] differences;  // their bits, or those of complements
   reg [30:0] scaled;       // -M or -M - 1, signed
   reg scale_taken;         // the area is taken
-  reg scaling;             // it is compared
-  reg [3:0] scale_next;    // times that it is fourfold
+  reg scaling;             // the scaled modulus is compared with the differences
+  reg [3:0] scale_next;    // how many times the modulus is multiplied by 4
   wire [31:0] less_m = {{15'd0, differences}, 1'b1} + {scaled, 1'b1};  // and a carry out of the lowest bit
   wire [30:0] part_14 = less_m[31:1];
   wire fits = (|area) ? part_14[30] : 1'b1;
@@ -556,7 +556,7 @@ module edgewalk_setup (
     end
   end
 
-  // What all lanes do.
+  // Commands of all lanes.
   wire either_3 = (at == DOUBLE_DX)
                || (at == DOUBLE_COLUMNS)
                || (at == DOUBLE_X)
@@ -633,7 +633,7 @@ module edgewalk_setup (
     step_of_pause0 <= (pause == 4'd2) ? step_again0 : advance ? 5'd7 : 5'd9;
   end
 
-  // What the lanes are shown in the next clock.
+  // Inputs of the lanes in the next clock.
   reg [1:0] from_place;
   wire [1:0] from_vertex = (from_place == 2'd2) ? p2_vertex
                          : (from_place == 2'd1) ? p1_vertex

@@ -8,7 +8,7 @@ use anyhow::{Result, anyhow};
 use edgewalk_model::Waits;
 use std::path::Path;
 
-/// Who draws.
+/// An engine: what draws the triangles.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
 pub enum Engine {
     /// The model without ticking
@@ -24,7 +24,7 @@ pub enum Engine {
 }
 
 impl Engine {
-    /// Those of this build, in the order of the table, the fastest first.
+    /// The engines of this build, in the order of the table, the fastest first.
     pub const ALL: &[Engine] = &[
         Engine::Fast,
         Engine::Tick,

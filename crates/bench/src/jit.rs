@@ -53,7 +53,7 @@ struct Native<W> {
     calls: Vec<OutputId>,
     /// The write: valid, address, and what the picture keeps of it.
     write: (OutputId, OutputId, Vec<OutputId>),
-    /// It has its room from the first frame on, as that of the harness.
+    /// Memory of the picture; allocated before the first frame, like the harness's.
     picture: Vec<u64>,
 }
 

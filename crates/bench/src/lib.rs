@@ -3,6 +3,13 @@
 //! ```text
 //!  triangles ─> job ─> part for the engine ─> frame by frame (fast, tick, jit, interpreter, verilator) ─> table
 //! ```
+//!
+//! ```
+//! use edgewalk_bench::Engine;
+//! assert_eq!(Engine::Fast.name(), "fast");
+//! assert!(Engine::Interpreter.budget() < Engine::Tick.budget(), "cycles that an engine is given");
+//! ```
+//! Next: [`Job`] holds what is timed, [`Table`] the result; `docs/performance.md` explains the figures.
 
 mod stopwatch;
 mod job;

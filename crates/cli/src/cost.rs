@@ -85,7 +85,7 @@ impl Synthesiser {
         })
     }
 
-    /// That its tools are there.
+    /// Checks that the tools of synthesis are there.
     pub fn check(&self) -> Result<()> {
         for tool in self.target.tools() {
             edgewalk_tool::run(std::process::Command::new(tool).arg("--version"), self.limit)?;
@@ -132,6 +132,6 @@ pub fn cache_folder(asked: Option<&Path>) -> Result<PathBuf> {
     let usual = || variable("XDG_CACHE_HOME").or_else(|| Some(variable("HOME")?.join(".cache")));
     let own = |folder: PathBuf| folder.join("edgewalk").join("synth");
     asked.map(Path::to_owned).or_else(|| usual().map(own)).ok_or_else(|| {
-        anyhow!("neither XDG_CACHE_HOME nor HOME says where to keep results; say it with --cache DIR")
+        anyhow!("neither XDG_CACHE_HOME nor HOME is set, so results have no folder; add --cache DIR")
     })
 }

@@ -17,7 +17,7 @@ use edgewalk_model::{Frame as Drawn, Pass, Shading, Waits, render_passes};
 use edgewalk_scene::Frame;
 use std::ops::Range;
 
-/// Who draws.
+/// An engine: what draws the picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
 pub enum Engine {
     /// Exact coverage by integers, depth and colour in f64

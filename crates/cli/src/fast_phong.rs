@@ -39,15 +39,19 @@ impl FitName {
 }
 
 impl FastPhongArgs {
-    /// That no option is given where another shading has no use for it.
+    /// Checks that no option is given where another shading has no use for it.
     ///
     /// # Errors
     /// One is.
     pub fn unused(&self) -> Result<()> {
         match (self.fit, self.table) {
             (None, None) => Ok(()),
-            (Some(_), _) => Err(anyhow!("--fit: only with --shading fast-phong")),
-            (None, Some(_)) => Err(anyhow!("--table: only with --shading fast-phong")),
+            (Some(_), _) => Err(anyhow!(
+                "--fit: permitted with --shading fast-phong only; leave it out, or add --shading fast-phong"
+            )),
+            (None, Some(_)) => Err(anyhow!(
+                "--table: permitted with --shading fast-phong only; leave it out, or add --shading fast-phong"
+            )),
         }
     }
 

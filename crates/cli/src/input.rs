@@ -56,7 +56,7 @@ pub enum Shading {
 }
 
 impl Shading {
-    /// The same for the golden picture; for fast Phong the system that it approximates.
+    /// The shading of the golden picture; for fast Phong the system that it approximates.
     pub fn golden(self) -> edgewalk_golden::Shading {
         match self {
             Self::Constant => edgewalk_golden::Shading::Constant,
@@ -67,7 +67,7 @@ impl Shading {
         }
     }
 
-    /// How cosines are come by, where the equation holds at each pixel.
+    /// Method of the cosines, where the equation holds at each pixel.
     fn at_pixels(self) -> Option<PixelMethod> {
         match self {
             Self::Phong => Some(PixelMethod::Phong),
@@ -165,7 +165,7 @@ impl Source {
         }
     }
 
-    /// The same, and of a scene with something transparent the order in which its triangles are drawn.
+    /// Like `frame`, and of a scene with something transparent the order in which its triangles are drawn.
     pub fn sorted(&self, machine: &Plan) -> Result<(Frame, Option<Order>)> {
         if self.is_triangle_file() {
             return Ok((self.frame(machine)?, None));
@@ -174,7 +174,7 @@ impl Source {
         self.frame_of(&scene, &surface, machine)
     }
 
-    /// The same of a scene and its surface on the machine's screen.
+    /// Like `sorted`, of a scene and its surface on the machine's screen.
     pub fn frame_of(
         &self,
         scene: &Scene,

@@ -14,7 +14,7 @@ use edgewalk_scene::Frame;
 
 /// What the machine makes of the parts.
 pub struct Added {
-    /// Their sum.
+    /// The sum of the pictures.
     pub drawn: Raster,
     /// As the first goes to the port.
     pub port: PortFrame,

@@ -4,6 +4,9 @@
 //!  scene | mesh | triangle file ──> input ──> engine (golden, model, rtl) ──> compare ──> report, pictures, arrays
 //!  machine file, preset, --set  ──> machine_args ──┘
 //! ```
+//!
+//! Its commands are the crates of this workspace, one thin file a command: `edgewalk --help`. A program of one's own
+//! depends on the crates, not on this one; `docs/architecture.md` says which does what.
 
 #![deny(clippy::print_stdout, clippy::print_stderr)] // they panic where they cannot write; see talk.rs
 
@@ -17,8 +20,10 @@ mod fast;
 mod fast_phong;
 mod input;
 mod jobs;
+mod junit;
 mod lamps;
 mod machine_args;
+mod own;
 mod picture;
 mod pictures;
 mod progress;
@@ -33,10 +38,10 @@ mod triangles;
 mod verdict;
 
 use anyhow::{Result, anyhow};
-use clap::{Parser, Subcommand};
+use clap::{CommandFactory as _, Parser, Subcommand};
 use commands::{
-    bench, compare, config, demo, emit, energy, explain, gallery, judge, raster, render, replay, size, sweep,
-    synth, trace, vectors, verify,
+    bench, compare, completions, config, demo, emit, energy, explain, gallery, judge, man, mutants, raster, render,
+    replay, size, sweep, synth, trace, vectors, verify,
 };
 use machine_args::MachineArgs;
 use std::io::Write as _;
@@ -86,12 +91,15 @@ enum Command {
     Emit(emit::Args),
     Vectors(vectors::Args),
     Verify(verify::Args),
+    Mutants(mutants::Args),
     Trace(trace::Args),
     Replay(replay::Args),
     Synth(synth::Args),
     Energy(energy::Args),
     Bench(bench::Args),
     Config(config::Args),
+    Completions(completions::Args),
+    Man(man::Args),
 }
 
 fn main() -> ExitCode {
@@ -139,12 +147,15 @@ fn run(cli: &Cli, talk: Talk) -> Result<Verdict> {
         Command::Emit(a) => emit::run(a, &cli.machine, talk),
         Command::Vectors(a) => vectors::run(a, &cli.machine, talk),
         Command::Verify(a) => verify::run(a, &cli.machine, talk),
+        Command::Mutants(a) => mutants::run(a, &cli.machine, talk),
         Command::Trace(a) => trace::run(a, &cli.machine, talk),
         Command::Replay(a) => replay::run(a, &cli.machine, talk),
         Command::Synth(a) => synth::run(a, &cli.machine, talk),
         Command::Energy(a) => energy::run(a, &cli.machine, talk),
         Command::Bench(a) => bench::run(a, &cli.machine, talk),
         Command::Config(a) => config::run(a, &cli.machine, talk),
+        Command::Completions(a) => completions::run(a, Cli::command(), talk),
+        Command::Man(a) => man::run(a, Cli::command(), talk),
     }
 }
 

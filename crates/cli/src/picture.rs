@@ -1,4 +1,4 @@
-//! Pictures for eyes: the frame, and the error as a heat map.
+//! Pictures for people: the frame, and the error as a heat map.
 
 mod scale;
 

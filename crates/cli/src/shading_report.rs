@@ -64,12 +64,12 @@ impl ShadingReport {
         }
     }
 
-    /// The same with what is to be said of transparent triangles.
+    /// Like `new`, with what is to be said of transparent triangles.
     pub fn blended(self, order: &Order) -> Self {
         Self { transparent: order.transparent, warning: order.warning(), ..self }
     }
 
-    /// The same with what is to be said of fast Phong.
+    /// Like `blended`, with what is to be said of fast Phong.
     pub fn with(self, fast_phong: FastPhongReport) -> Self {
         Self { fast_phong: Some(fast_phong), ..self }
     }

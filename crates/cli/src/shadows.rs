@@ -18,7 +18,7 @@ pub enum Shadows {
 const SIZE: u32 = 1024;
 
 impl Shadows {
-    /// The same for the golden picture.
+    /// The shadows of the golden picture.
     pub fn golden(self, scene: &Scene) -> Visibility<'_> {
         match self {
             Self::Off => Visibility::Full,

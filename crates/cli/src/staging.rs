@@ -133,7 +133,10 @@ impl Moves {
         }
         match fs::symlink_metadata(target) {
             Ok(there) if there.is_dir() => {
-                return Err(anyhow!("{}: is a folder, and a file is to be there", at()));
+                return Err(anyhow!(
+                    "{}: is a folder where a file must be written; remove it, or choose another --out",
+                    at()
+                ));
             }
             Ok(_) => self.put_away(target)?,
             Err(_) => {}

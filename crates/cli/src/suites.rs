@@ -4,11 +4,11 @@ use crate::input::PortFrame;
 use crate::staging::Staging;
 use crate::{Talk, jobs, progress};
 use anyhow::{Result, anyhow};
-use edgewalk_machine::Plan;
+use edgewalk_machine::{Plan, Unknown};
 use edgewalk_scene::InputKind;
 use edgewalk_vectors::{
     Files, Reached, SUITES, StallKind, Suite, Tables, Unit, Words, capture_watched, design, directory,
-    not_covered, reached,
+    directory_for, dut::Wiring, not_covered, reached,
 };
 use std::path::{Component, Path};
 
@@ -79,6 +79,21 @@ fn named(machine: &Plan, wanted: impl Fn(&str) -> bool) -> Result<Vec<Suite>> {
     names.map(|name| Ok(Suite::named(machine, name, 1, 0)?)).collect()
 }
 
+/// Of these suites the cases of these names; all, if none is named. A suite without such a case is left out.
+pub fn only(suites: Vec<Suite>, names: &[String]) -> Result<Vec<Suite>> {
+    if names.is_empty() {
+        return Ok(suites);
+    }
+    let known = || suites.iter().flat_map(|suite| &suite.cases).map(|case| case.name.as_str());
+    for name in names {
+        if !known().any(|case| case == name) {
+            return Err(anyhow!("--only: {}", Unknown::new("case", name, known())));
+        }
+    }
+    let suites = suites.into_iter().map(|suite| suite.only(names));
+    Ok(suites.filter(|suite| !suite.cases.is_empty()).collect())
+}
+
 /// Prints what could be met in each unit and was not.
 pub fn warn_of_gaps(runs: &[(Unit, Reached)], talk: Talk) {
     for unit in Unit::known().filter(|_| !talk.quiet) {
@@ -116,6 +131,8 @@ pub struct Set<'a> {
     pub stalls: Option<StallKind>,
     /// With tables or without.
     pub tables: Tables,
+    /// The design that the benches are for; ours if there is none.
+    pub own: Option<&'a Wiring>,
 }
 
 /// What the progress bar counts.
@@ -143,9 +160,14 @@ impl Set<'_> {
             let trace = capture_watched(machine, *unit, suite, suite.state, stalls, &|entered, of| {
                 bar.set_message(format!("{WHAT}; {name}: {entered} of {of} tokens have entered"));
             });
-            let verilog =
-                design::verilog(machine, *unit).map_err(|e| anyhow!("the netlist cannot be built: {e}"))?;
-            let files = directory(suite, &trace, &verilog, self.tables);
+            let files = match self.own {
+                Some(wiring) => directory_for(suite, &trace, wiring, self.tables),
+                None => {
+                    let verilog = design::verilog(machine, *unit)
+                        .map_err(|e| anyhow!("the netlist cannot be built: {e}"))?;
+                    directory(suite, &trace, &verilog, self.tables)
+                }
+            };
             if !talk.quiet {
                 bar.suspend(|| announce(&name, &files, talk));
             }

@@ -57,7 +57,7 @@ impl TriangleFile {
         Ok(parse(&self.name, BufReader::with_capacity(BUFFER, self.start()?))?)
     }
 
-    /// Its bytes from the first on.
+    /// The bytes of the file, from the first on.
     fn start(&self) -> Result<Bytes<'_>> {
         let rewound = self.kept.as_ref().unwrap_or(&self.file).rewind();
         rewound.with_context(|| self.name.clone())?;

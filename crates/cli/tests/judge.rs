@@ -4,6 +4,8 @@
 //! keeps the nearest fragment of each tile before it writes.
 #![allow(clippy::unwrap_used)] // a test that unwraps nothing reports it
 
+mod verilog;
+
 use crate::support::{edgewalk, ended};
 use serde_json::Value;
 use std::path::Path;

@@ -21,7 +21,7 @@ const LAYERS: &[(&str, &[&str])] = &[
     ("rtl", &["machine", "netlist"]),
     ("lockstep", &["machine", "model", "netlist", "rtl"]),
     ("tool", &[]),
-    ("vectors", &["machine", "model", "netlist", "verilog", "rtl", "lockstep", "tool"]),
+    ("vectors", &["nearest", "machine", "model", "netlist", "verilog", "rtl", "lockstep", "tool"]),
     ("replay", &["machine", "model"]),
     ("synth", &["machine", "netlist", "verilog", "rtl", "tool"]),
     ("bench", &["machine", "model", "netlist", "verilog", "jit", "rtl", "lockstep", "tool"]),

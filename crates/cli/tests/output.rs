@@ -51,7 +51,10 @@ fn a_run_that_cannot_place_a_file_changes_nothing() {
     let (code, error) = run(folder.path(), &["raster", "d.tri", "--out", "out", "--engine", "golden"]);
     assert_eq!(
         (code, error.as_str()),
-        (Some(2), "error: out/writes.npy: is a folder, and a file is to be there\n")
+        (
+            Some(2),
+            "error: out/writes.npy: is a folder where a file must be written; remove it, or choose another --out\n"
+        )
     );
     assert!(contents(&out) == before, "changed: {:?}", names(&out));
     assert!(!names(&out).iter().any(|name| name.starts_with(".edgewalk")), "{:?}", names(&out));

@@ -195,6 +195,6 @@ fn what_cannot_be_sized_is_said() {
     )
     .unwrap();
     let (code, told) = run(folder.path(), &[&["size", "off.tri"], &SCREEN[..]].concat());
-    assert!(code == Some(2) && told.contains("none of these triangles covers a pixel"), "{told}");
+    assert!(code == Some(2) && told.contains("no triangle covers a pixel of the screen"), "{told}");
     assert_eq!(names(folder.path()), ["off.tri", "out"]);
 }

@@ -9,7 +9,7 @@ use std::path::Path;
 use std::process::Stdio;
 
 /// A quick run of each command, as text; those with a report also come with --json.
-pub const COMMANDS: [&[&str]; 21] = [
+pub const COMMANDS: [&[&str]; 24] = [
     &["demo", "d.tri", "--out", "demo"],
     &["render", "d.tri", "--out", "render"],
     &["render", "sphere", "--engine", "golden", "--out", "shaded"],
@@ -21,6 +21,7 @@ pub const COMMANDS: [&[&str]; 21] = [
     &["emit", "--out", "emit"],
     &["vectors", "--suite", "hazards", "--unit", "depth", "--out", "vectors"],
     &["verify", "d.tri", "--triangles", "1", "--no-simulators", "--set", "screen.guard_bits=7"],
+    &["mutants", "--unit", "span", "--bench", "true", "--sample", "1", "--out", "mutants"],
     &["trace", "d.tri", "--out", "t.vcd", "--cycles", "10"],
     &["bench", "d.tri", "--engine", "fast", "--repeat", "1"],
     &["synth", "--unit", "span", "--seeds", "1", "--cache", concat!(env!("CARGO_TARGET_TMPDIR"), "/synth")],
@@ -31,6 +32,8 @@ pub const COMMANDS: [&[&str]; 21] = [
     &["config", "print"],
     &["config", "check"],
     &["config", "explain"],
+    &["completions", "bash"],
+    &["man", "--out", "man"],
 ];
 
 /// On the screen of the file; `raster`, `bench` and `gallery` take no word of the screen or have their own.

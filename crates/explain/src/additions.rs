@@ -13,7 +13,7 @@ use serde::Serialize;
 /// The accumulators on their way.
 #[derive(Debug, Serialize)]
 pub struct Walk {
-    /// Whose accumulators: z, r, g, b, then the user's own. All lists below are in this order.
+    /// The channels whose accumulators follow: z, r, g, b, then the user's own. All lists below are in this order.
     pub channels: Vec<Label>,
     /// From the start on.
     pub additions: Vec<Addition>,

@@ -11,7 +11,7 @@ use std::fmt::Write as _;
 pub(crate) struct OnLine {
     /// Place of the polygon among triangles and polygons.
     id: usize,
-    /// Its edge table, as the lecture prints it.
+    /// The edge table of the line, as the lecture prints it.
     table: String,
     /// The edges that cross the line, from left to right.
     active: Vec<Active>,

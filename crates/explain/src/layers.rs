@@ -27,7 +27,7 @@ pub struct Layer {
     pub machine: Option<[u32; 3]>,
     /// Largest error of the three, LSB.
     pub error: Option<f64>,
-    /// It is at most this, LSB.
+    /// Proved bound of the error, LSB.
     pub bound: f64,
 }
 

@@ -1,4 +1,18 @@
 //! Why a pixel looks as it does: the triangles over it, its light, and every addition, table and bound of the machine on the way to it.
+//!
+//! ```
+//! use edgewalk_explain::{Input, explain};
+//! use edgewalk_machine::Machine;
+//! use edgewalk_scene::triangle_file;
+//! let text = "size 16 12\nT 3 1.5 .25 1 0 0 0  13 4.75 .5 0 1 0 0  5.5 10 .5 0 0 1 0\n";
+//! let frame = triangle_file::parse("stdin", text.as_bytes())?;
+//! let machine = Machine { width: 16, height: 12, ..Machine::default() }.plan()?;
+//! let input = Input { machine: &machine, frame: &frame, scene: None, order: None, outlined: None };
+//! let told = explain(&input, (6, 5))?.text(8);
+//! assert!(told.contains("additions to here: 6"));
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//! Next: `edgewalk explain` prints this text; the bounds in it are proved in `docs/numerics.md`.
 
 pub mod accumulators;
 mod additions;

@@ -15,7 +15,7 @@ pub struct Normal {
     y: i64,
     /// The cosines of each light, 2^-16.
     cosines: Vec<i64>,
-    /// The same in entries of SHADE's tables.
+    /// Like `cosines`, in entries of SHADE's tables.
     indices: Vec<Index>,
 }
 

@@ -92,7 +92,7 @@ pub fn shadowed(
     }))
 }
 
-/// The same in words; `place`: the light's number, from 1.
+/// Like `shadowed`, in words; `place`: the light's number, from 1.
 pub fn text(pixel: &ShadowedPixel, place: usize) -> String {
     let ShadowedPixel { exact: [x, y, z], weight, values, found: [tx, ty, d], word, left, lit, share } =
         pixel;

@@ -17,7 +17,7 @@ pub(super) struct TableRead {
 }
 
 impl TableRead {
-    /// The same as words behind an index.
+    /// As words behind an index.
     pub fn text(&self, index: i64) -> String {
         let TableRead { golden, bound, entry, table, .. } = self;
         // A floor lies up to 1 below.

@@ -50,7 +50,7 @@ pub struct ChannelSize {
     pub fraction_bits: u32,
     /// For every triangle in the guard band.
     pub every: Answer,
-    /// The same with the fewest guard bits.
+    /// Like `every`, with the fewest guard bits.
     pub every_in_fewest_guard_bits: Answer,
     /// For these triangles.
     pub these: Answer,
@@ -89,7 +89,7 @@ pub fn size(machine: &Plan, port: &PortFrame, error: f64) -> Result<Size> {
         ));
     }
     let reach = reached(machine, port)?
-        .ok_or_else(|| anyhow!("none of these triangles covers a pixel, so none says what it needs"))?;
+        .ok_or_else(|| anyhow!("no triangle covers a pixel of the screen: nothing to size; check the input, screen.width and screen.height"))?;
     let guard_bits = GuardBits { machine: machine.guard_bits, needed: needed_guard_bits(machine, port) };
     let fewest = Screen { guard_columns: (1 << guard_bits.needed) - 1, ..machine.screen() };
     // What is made of the values on their way to memory changes nothing of their words.

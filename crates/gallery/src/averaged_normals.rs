@@ -6,7 +6,7 @@ use edgewalk_scene::{Crease, InputError, NormalRule, Scene, Weight};
 use glam::DVec3;
 use std::path::Path;
 
-const SCENE: &str = include_str!("../../../docs/scenes/averaged-normals.toml");
+const SCENE: &str = include_str!("../scenes/averaged-normals.toml");
 
 pub(crate) fn averaged_normals() -> anyhow::Result<Exhibit> {
     let folds = |crease: f64, weight: Weight| -> Result<Scene, InputError> {

@@ -9,7 +9,7 @@ use edgewalk_golden::{Shaded, Shading, shade};
 use edgewalk_scene::Scene;
 use std::path::Path;
 
-const SCENE: &str = include_str!("../../../docs/scenes/components.toml");
+const SCENE: &str = include_str!("../scenes/components.toml");
 
 /// k_s of the sweep, in tenths; k_d is what is left of 0.9.
 const SWEEP: [u32; 5] = [0, 2, 4, 6, 8];

@@ -46,7 +46,7 @@ pub enum Image {
 
 /// Pixels a line of the pictures.
 pub(crate) const WIDTH: u32 = 320;
-/// Their lines.
+/// Lines of the pictures.
 pub(crate) const HEIGHT: u32 = 240;
 /// Guard band, pixels: that of the default machine.
 pub(crate) const GUARD: f64 = 8191.0;

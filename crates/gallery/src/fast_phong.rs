@@ -6,7 +6,7 @@ use edgewalk_golden::fast_phong::{Directional, Fit, Settings, shade};
 use edgewalk_scene::{PixelMethod, Scene};
 use std::path::Path;
 
-const SCENE: &str = include_str!("../../../docs/scenes/fast-phong.toml");
+const SCENE: &str = include_str!("../scenes/fast-phong.toml");
 
 /// Error shown as white, LSB.
 const WHITE: f64 = 16.0;

@@ -7,7 +7,7 @@ use edgewalk_scene::Scene;
 use glam::DVec3;
 use std::path::Path;
 
-const SCENE: &str = include_str!("../../../docs/scenes/glass.toml");
+const SCENE: &str = include_str!("../scenes/glass.toml");
 
 /// Points of the floor: beside the panes, under the red, under the blue, under both.
 const PLACES: [[f64; 2]; 4] = [[-2.0, 0.0], [-1.0, 0.0], [1.0, 0.0], [0.0, 0.0]];

@@ -5,7 +5,7 @@ use crate::machine::Beside;
 use edgewalk_scene::{PixelMethod, Scene};
 use std::path::Path;
 
-const SCENE: &str = include_str!("../../../docs/scenes/lamp.toml");
+const SCENE: &str = include_str!("../scenes/lamp.toml");
 
 pub(crate) fn lamp() -> anyhow::Result<Exhibit> {
     let beside = Beside::of(&Scene::parse(Path::new("lamp.toml"), SCENE)?, PixelMethod::Phong)?;

@@ -2,6 +2,15 @@
 //!
 //! Each exhibit is a file: a scene (most are in `docs/scenes`), what is drawn of it, and what is measured there. Nothing
 //! is written here; the program writes pictures and page.
+//!
+//! ```
+//! let (name, make) = edgewalk_gallery::EXHIBITS[0];
+//! let exhibit = make()?;
+//! assert_eq!(exhibit.name, name);
+//! assert!(!exhibit.figures.is_empty() && !exhibit.views.is_empty());
+//! # Ok::<(), anyhow::Error>(())
+//! ```
+//! Next: `docs/gallery/README.md` is the page; "add an exhibit" in `docs/architecture.md` says what a new one takes.
 
 mod exhibit;
 mod plot;

@@ -6,7 +6,7 @@ use edgewalk_scene::{Light, Scene};
 use glam::DVec3;
 use std::path::Path;
 
-const SCENE: &str = include_str!("../../../docs/scenes/lights.toml");
+const SCENE: &str = include_str!("../scenes/lights.toml");
 
 pub(crate) fn lights() -> anyhow::Result<Exhibit> {
     let scene = Scene::parse(Path::new("lights.toml"), SCENE)?;

@@ -7,7 +7,7 @@ use edgewalk_golden::{Shading, shade};
 use edgewalk_scene::Scene;
 use std::path::Path;
 
-const SCENE: &str = include_str!("../../../docs/scenes/mach-bands.toml");
+const SCENE: &str = include_str!("../scenes/mach-bands.toml");
 
 pub(crate) fn mach_bands() -> anyhow::Result<Exhibit> {
     let scene = Scene::parse(Path::new("mach-bands.toml"), SCENE)?;

@@ -98,7 +98,7 @@ impl Beside {
         figures
     }
 
-    /// Its pictures.
+    /// Pictures of both, for an exhibit.
     pub(crate) fn views(self) -> Vec<View> {
         let ([drawn, golden, error], what) = match self.method {
             PixelMethod::FastPhong => (["machine", "machine-golden", "machine-error"], "fast Phong"),

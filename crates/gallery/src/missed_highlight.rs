@@ -6,7 +6,7 @@ use edgewalk_golden::{Shading, shade};
 use edgewalk_scene::{PixelMethod, Scene};
 use std::path::Path;
 
-const SCENE: &str = include_str!("../../../docs/scenes/missed-highlight.toml");
+const SCENE: &str = include_str!("../scenes/missed-highlight.toml");
 
 /// The light, and where it stands for its highlight to lie on a vertex of the square.
 const LIGHT: &str = "position = [0, 0.7, -0.6]";

@@ -11,7 +11,7 @@ use edgewalk_model::Waits;
 use edgewalk_scene::{Frame, Scene, Triangle, Vertex};
 use std::path::Path;
 
-const SCENE: &str = include_str!("../../../docs/scenes/mach-bands.toml");
+const SCENE: &str = include_str!("../scenes/mach-bands.toml");
 
 /// Pixels of a side of the squares whose means are compared.
 const SQUARE: u32 = 8;

@@ -5,7 +5,7 @@ use crate::machine::Beside;
 use edgewalk_scene::{PixelMethod, Scene};
 use std::path::Path;
 
-const SCENE: &str = include_str!("../../../docs/scenes/relief.toml");
+const SCENE: &str = include_str!("../scenes/relief.toml");
 
 pub(crate) fn relief() -> anyhow::Result<Exhibit> {
     let scene = |text: &str| Scene::parse(Path::new("relief.toml"), text);

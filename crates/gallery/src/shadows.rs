@@ -8,7 +8,7 @@ use edgewalk_machine::Machine;
 use edgewalk_scene::Scene;
 use std::path::Path;
 
-const SCENE: &str = include_str!("../../../docs/scenes/shadows.toml");
+const SCENE: &str = include_str!("../scenes/shadows.toml");
 
 /// The scene drawn by a machine with PROJECT, golden's picture of the same passes, and what was found.
 pub(crate) fn on_the_machine(

@@ -6,7 +6,7 @@ use edgewalk_golden::{Shading, shade};
 use edgewalk_scene::Scene;
 use std::path::Path;
 
-const SCENE: &str = include_str!("../../../docs/scenes/silhouette.toml");
+const SCENE: &str = include_str!("../scenes/silhouette.toml");
 
 pub(crate) fn silhouette() -> anyhow::Result<Exhibit> {
     let (mut points, mut pictures) = (Vec::new(), Vec::new());

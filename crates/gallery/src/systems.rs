@@ -6,7 +6,7 @@ use edgewalk_golden::{Shading, shade};
 use edgewalk_scene::{PixelMethod, Scene};
 use std::path::Path;
 
-const SCENE: &str = include_str!("../../../docs/scenes/systems.toml");
+const SCENE: &str = include_str!("../scenes/systems.toml");
 
 /// Error shown as white, LSB.
 const WHITE: f64 = 32.0;

@@ -6,7 +6,7 @@ use edgewalk_golden::{Shaded, Shading, shade};
 use edgewalk_scene::{PixelMethod, Scene};
 use std::path::Path;
 
-const SCENE: &str = include_str!("../../../docs/scenes/texture-and-relief.toml");
+const SCENE: &str = include_str!("../scenes/texture-and-relief.toml");
 
 pub(crate) fn texture() -> anyhow::Result<Exhibit> {
     let smooth = SCENE.replace("bump_height = 0.05", "bump_height = 0");

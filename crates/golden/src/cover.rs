@@ -37,7 +37,7 @@ pub fn fragments(
     fragments_of_lines(triangle, mode, subpixel_bits, width, 0..height, draw);
 }
 
-/// The same for some lines of the screen.
+/// Like `fragments`, for some lines of the screen.
 pub(crate) fn fragments_of_lines(
     triangle: &Triangle,
     mode: ShadeMode,

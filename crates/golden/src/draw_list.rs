@@ -51,7 +51,7 @@ impl<'a> DrawList<'a> {
         &self.items
     }
 
-    /// That of the light with this number.
+    /// The map of the light with this number.
     pub(crate) fn map(&self, light: usize) -> Option<&ShadowMap<'a>> {
         self.maps.get(light.checked_sub(1)?)
     }

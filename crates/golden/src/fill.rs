@@ -32,7 +32,7 @@ impl Fill {
         self.fragments_of_lines(triangle, mode, width, 0..height, draw);
     }
 
-    /// The same for some lines of the screen.
+    /// Like `fragments`, for some lines of the screen.
     pub(crate) fn fragments_of_lines(
         self,
         triangle: &Triangle,

@@ -7,6 +7,17 @@
 //!
 //! What steps is what is meant to show stepping, in f64 and beside the truth: the attributes of Phong shading
 //! ([`Incremental`], the additions of ch. 7.9 and 7.10) and the second differences of [`fast_phong`].
+//!
+//! ```
+//! use edgewalk_golden::{Fill, draw};
+//! use edgewalk_scene::triangle_file;
+//! let text = "size 16 12\nT 3 1.5 .25 1 0 0 0  13 4.75 .5 0 1 0 0  5.5 10 .5 0 0 1 0\n";
+//! let frame = triangle_file::parse("stdin", text.as_bytes())?;
+//! let picture = draw(&frame, Fill::Exact { subpixel_bits: 8 });
+//! assert_eq!(picture.coverage.iter().sum::<u32>(), 38);
+//! # Ok::<(), edgewalk_scene::InputError>(())
+//! ```
+//! Next: crate `judge` holds a machine's picture beside this one; `docs/shading.md` has the equation.
 
 mod cover;
 mod textbook;

@@ -73,7 +73,7 @@ impl Line {
         }
     }
 
-    /// Its pixel at this place of the screen, if it is one of its own.
+    /// The fragment at this place of the screen, if the line has one there.
     pub(crate) fn fragment(&self, x: u32, y: u32) -> Option<Fragment<'_, 2>> {
         let mut found = None;
         self.fragments_of_lines(x + 1, y..y + 1, |fragment| {

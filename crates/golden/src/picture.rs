@@ -67,7 +67,7 @@ impl<'a> Drawing<'a> {
         Self { list: DrawList::new(frame, fill), screen_door: None }
     }
 
-    /// The same with a screen door: a triangle that is mixed by its k_t, rounded to so many bits, is drawn opaque, and left out where the
+    /// Like `new`, with a screen door: a triangle that is mixed by its k_t, rounded to so many bits, is drawn opaque, and left out where the
     /// [pattern](crate::dither::left_out) says so.
     #[must_use]
     pub fn with_screen_door(self, kt_bits: u32) -> Self {
@@ -79,7 +79,7 @@ impl<'a> Drawing<'a> {
         self.watched(lines, |_| {})
     }
 
-    /// The same; `watch` sees every depth test and every colour stored, in order.
+    /// Like `lines`; `watch` sees every depth test and every colour stored, in order.
     pub fn watched(&self, lines: Range<u32>, mut watch: impl FnMut(Step)) -> Picture {
         let list = &self.list;
         let (frame, width) = (list.frame(), list.frame().width);
@@ -144,7 +144,7 @@ pub enum Step {
         at: usize,
         /// Place of the primitive in the list.
         id: i32,
-        /// That of the one whose depth is stored, or [`NO_TRIANGLE`]: the cleared one.
+        /// The triangle whose depth is stored, or [`NO_TRIANGLE`]: the cleared one.
         stored: i32,
         /// How far they are apart.
         gap: f64,
@@ -157,7 +157,7 @@ pub enum Step {
         id: i32,
         /// The fragment's depth.
         z: f64,
-        /// Its colour, before a light's map.
+        /// Colour of the fragment, before a light's map.
         own: [f64; 3],
         /// What the map does.
         lit: Lit,
@@ -165,7 +165,7 @@ pub enum Step {
         share: f64,
         /// The number of the light, as the rules have it.
         light: usize,
-        /// Its k_t.
+        /// k_t of the fragment.
         kt: f64,
         /// What the pixel had.
         back: [f64; 3],

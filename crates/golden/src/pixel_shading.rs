@@ -89,7 +89,7 @@ impl<'a> PixelBrush<'a> {
         self.color_by(fragment, &self.texel(fragment))
     }
 
-    /// The same with this texel for its own.
+    /// Like `color`, with this texel for its own.
     pub fn color_by<const N: usize, W: Weight>(&self, fragment: &Fragment<N, W>, texel: &Texel) -> [f64; 3] {
         let (shares, surface) = (fragment.shares(), DVec3::from(fragment.rgb()) * texel.color);
         let color = match self.shading.method {
@@ -184,7 +184,7 @@ impl<'a> PixelBrush<'a> {
         self.lit_by(shares, texel, |light| light)
     }
 
-    /// The same by lights that are changed, in Phong.
+    /// Like `lit`, by lights that are changed, in Phong.
     fn lit_by(&self, shares: &[f64], texel: &Texel, changed: impl Fn(Light) -> Light) -> Vec<Lit> {
         let turned = |[along_u, along_v]: [[f64; 3]; 2]| {
             texel.slopes.x * mean(along_u, shares) + texel.slopes.y * mean(along_v, shares)

@@ -40,7 +40,7 @@ pub fn fragments(table: &EdgeTable, (width, height): (u32, u32), draw: impl FnMu
     fragments_of_lines(table, width, 0..height, draw);
 }
 
-/// The same for some lines of the screen.
+/// Like `fragments`, for some lines of the screen.
 pub(crate) fn fragments_of_lines(
     table: &EdgeTable,
     width: u32,

@@ -17,7 +17,7 @@ use crate::weights::Weights;
 use edgewalk_scene::{Blending, Frame, Scene, ShadeMode, Surface, SurfaceTriangle, SurfaceVertex};
 use glam::{DVec2, DVec3};
 
-/// How the colour of a pixel is come by.
+/// Shading method: the way to the colour of a pixel.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Shading {
     /// One colour a polygon, by its own normal (ch. 7.6).

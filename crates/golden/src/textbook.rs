@@ -43,7 +43,7 @@ pub fn half_triangles(
     half_triangles_of_lines(triangle, mode, width, 0..height, draw);
 }
 
-/// The same for some lines of the screen.
+/// Like `half_triangles`, for some lines of the screen.
 pub(crate) fn half_triangles_of_lines(
     triangle: &Triangle,
     mode: ShadeMode,

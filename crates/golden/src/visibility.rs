@@ -5,7 +5,7 @@ use crate::shadow::ShadowMaps;
 use edgewalk_scene::{Scene, SurfaceTriangle};
 use glam::DVec3;
 
-/// How r_l is come by (ch. 7.2).
+/// Methods for r_l (ch. 7.2).
 pub enum Visibility<'a> {
     /// r_l = 1: no light casts shadows.
     Full,

@@ -17,7 +17,7 @@ pub fn channels(machine: &Plan) -> &[Channel] {
     &machine.channels()[BEFORE..BEFORE + machine.extra as usize]
 }
 
-/// That the machine has no channels of the user's own, as a scene has no values for them.
+/// Checks that the machine has no channels of the user's own, as a scene has no values for them.
 ///
 /// # Errors
 /// It has.

@@ -90,7 +90,7 @@ fn scale_of(values: &[[f64; 4]; 3], machine: &Plan) -> Result<f64> {
     // Beyond, 2^k and what it scales would lose bits.
     if !(1e-200..1e200).contains(&largest) {
         return Err(anyhow!(
-            "shadow: the matrix takes a vertex to numbers of {largest:e}; 1e-200 to 1e200 is permitted"
+            "shadow: the matrix takes a vertex to numbers of {largest:e}; permitted: 1e-200 to 1e200; scale the matrix"
         ));
     }
     let guess = 2f64.powi((most / largest).log2().floor() as i32);
@@ -127,7 +127,7 @@ pub fn left_error(panes: u32, bits: u32, kt_bits: u32, grey: f64) -> f64 {
 
 /// A light's map, and what drawing it took.
 pub struct Map {
-    /// Its words, by address.
+    /// Words of the map, by address.
     pub words: Vec<u32>,
     /// Of the light's own pass.
     pub counters: Counters,

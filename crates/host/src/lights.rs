@@ -71,7 +71,7 @@ pub fn frames(scene: &Scene, surface: &Surface, machine: &Plan) -> Result<Vec<Fr
         let (name, size) = (named(l, light), machine.shadow.size);
         let view = light.view(scene.mesh.positions(), size).ok_or_else(|| {
             anyhow!(
-                "--shadows map: {name} takes six maps, and a pass looks up one; permitted: directional, flood with a cone up to 60, others that see the whole mesh within 70 degrees of an axis or of its middle; or draw with --engine golden"
+                "--shadows map: {name} needs six maps, and the machine looks up one; permitted: directional, flood with a cone of at most 60 degrees, or a light that sees the whole mesh within 70 degrees of an axis or of the mesh's middle; or draw with --engine golden"
             )
         })?;
         let shadow = shadow(scene, (surface, &drawn), &view, machine).with_context(|| name)?;

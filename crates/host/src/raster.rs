@@ -31,7 +31,7 @@ pub struct Raster {
     pub host: Host,
     /// Where the cycles went, where a machine drew.
     pub cycles: Option<Cycles>,
-    /// The same by pass, where there is more than one.
+    /// Like `cycles`, by pass, where there is more than one.
     pub passes: Vec<Cycles>,
     /// The lights' own passes, before.
     pub lights: Vec<LightPass>,
@@ -80,7 +80,7 @@ impl Cycles {
         Cycles { total: counters.cycles, path, held: Some(held), spent: counters.activity }
     }
 
-    /// Those of two runs, one after the other.
+    /// The cycles of two runs, one after the other.
     #[must_use]
     pub fn and(mut self, other: Cycles) -> Self {
         self.total += other.total;

@@ -80,7 +80,7 @@ pub fn geometry(machine: &Plan, port: &PortFrame) -> Result<Passage> {
     drawn.map_err(|refusal| anyhow!("the fast engine draws every frame of such a machine: {refusal:?}"))
 }
 
-/// The same of all passes together.
+/// Like `geometry`, of all passes together.
 ///
 /// # Errors
 /// Vertices of another machine.

@@ -18,7 +18,7 @@ pub(crate) struct Design {
     pub outputs: Vec<(String, ValueId)>,
     pub registers: Vec<Register>,
     pub memories: Vec<Memory>,
-    /// Those that are in a unit of their own.
+    /// Runners that have a unit of their own.
     pub runners: Vec<Runner>,
     /// Every named signal by its path.
     pub signals: BTreeMap<String, ValueId>,

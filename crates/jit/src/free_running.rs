@@ -52,7 +52,7 @@ struct Node {
     width: u32,
     number: usize,
     reads: Set,
-    /// It is stored in every clock.
+    /// The register is stored in every clock.
     always: bool,
     /// What it takes if no condition holds follows from itself alone.
     runs: bool,
@@ -127,11 +127,11 @@ fn is_masked(design: &Design, runner: &Node, mask: ValueId) -> bool {
 /// What a value is while the mask is 0.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Seen {
-    /// It follows from other things than the runner.
+    /// The value follows from something else than the runner.
     Other,
     /// Always this.
     Bit(bool),
-    /// It may follow from the runner.
+    /// The value may follow from the runner.
     Runner,
 }
 

@@ -50,12 +50,12 @@ impl Graph {
         &self.values[id.index()].0
     }
 
-    /// Its bits, 1 to 128.
+    /// Bits of the value, 1 to 128.
     pub fn width(&self, id: ValueId) -> u32 {
         self.values[id.index()].1
     }
 
-    /// Its operands; none unless it is computed.
+    /// Operands of the value; none unless it is computed.
     pub fn operands(&self, id: ValueId) -> &[ValueId] {
         match self.kind(id) {
             Kind::Op(_, operands) => operands,

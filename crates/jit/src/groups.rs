@@ -46,7 +46,7 @@ impl Member {
         matches!(self, Member::Register { q, values } if values[rank] == *q)
     }
 
-    /// The same, staying under so many conditions more, which are weaker; a read port has only one.
+    /// Like `stays`, staying under so many conditions more, which are weaker; a read port has only one.
     pub fn kept(self, weaker: usize) -> Member {
         match self {
             Member::Register { q, values } => {

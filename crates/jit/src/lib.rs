@@ -19,6 +19,22 @@
 //!
 //! Widths are those of the netlist, 1 to 128 bits: a bit is 8 bits of the processor, up to 64 are one word,
 //! more are two.
+//!
+//! ```
+//! use edgewalk_netlist::Module;
+//! let m = Module::new("counter", "Counts the clocks in which step is high.");
+//! let step = m.input("step", 1);
+//! let count = m.reg("count", 8).reset(0);
+//! count.when(step, count.q() + 1);
+//! m.output("q", count.q());
+//! let counter = m.finish()?;
+//! let mut simulator = edgewalk_jit::Simulator::new(&counter)?;
+//! simulator.set_input("step", 1)?;
+//! (0..5).for_each(|_| simulator.tick());
+//! assert_eq!(simulator.get("q")?, 5);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//! Next: `docs/performance.md` has the speed beside other simulators; `edgewalk render --engine jit` draws with it.
 
 mod graph;
 mod simplify;

@@ -57,7 +57,7 @@ fn others(registers: &[Register], kinds: &[u64]) -> HashMap<ValueId, ValueId> {
     of_each.filter(|(q, other)| q != other).collect()
 }
 
-/// The same for values that come from the same if registers of a kind are equal.
+/// Like `others`, for values that come from the same if registers of a kind are equal.
 fn hashes(design: &Design, own: &[u64], kinds: &[u64]) -> Vec<u64> {
     let mut hashes = own.to_vec();
     for (register, kind) in design.registers.iter().zip(kinds) {

@@ -23,7 +23,7 @@ pub(crate) struct Readers<'d> {
     /// The number of each stored value in a [`Set`].
     numbers: HashMap<ValueId, usize>,
     cones: Vec<Set>,
-    /// The same once what is early has been worked out.
+    /// Like `cones`, once what is early has been worked out.
     left: Vec<Set>,
     /// What is early in a unit.
     early: BTreeMap<usize, Vec<ValueId>>,

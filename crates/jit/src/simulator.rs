@@ -32,7 +32,7 @@ pub struct Simulator {
     state: State,
     /// An input or a register changed since the outputs were computed.
     outputs_stale: bool,
-    /// The same for all signals.
+    /// Like `outputs_stale`, for all signals.
     signals_stale: bool,
 }
 
@@ -224,6 +224,20 @@ impl Simulator {
         let found = memories.find(|(memory, _)| memory.path == path);
         let (_, area) = found.ok_or_else(|| SimError::NoMemory(path.to_owned()))?;
         Ok((0..area.words).map(|index| self.state.word(*area, index)).collect())
+    }
+
+    /// Puts a word into a memory, a ROM too: a fault in it.
+    ///
+    /// # Errors
+    /// If there is no such word.
+    pub fn set_word(&mut self, path: &str, address: usize, value: u128) -> Result<(), SimError> {
+        let Plan { design, layout, .. } = &self.compiled.plan;
+        let mut memories = design.memories.iter().zip(&layout.memories);
+        let found = memories.find(|(memory, area)| memory.path == path && address < area.words);
+        let (_, area) = found.ok_or_else(|| SimError::NoMemory(format!("{path}[{address}]")))?;
+        self.state.set_word(*area, address, value & mask(area.width));
+        self.change();
+        Ok(())
     }
 
     /// Computes the outputs that follow from inputs and registers, if anything changed. Reading a signal does

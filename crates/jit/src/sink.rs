@@ -13,7 +13,7 @@ use crate::tables::Tables;
 /// and then.
 const LEAST: u32 = 8;
 
-/// The same for what is asked only if another bit is 1: one that is 1 half of the time is guessed wrong more
+/// Like `LEAST`, for what is asked only if another bit is 1: one that is 1 half of the time is guessed wrong more
 /// often.
 const LEAST_ASKED: u32 = 12;
 
@@ -50,7 +50,7 @@ impl Choice {
 /// What each value alone needs in the step that was looked at last.
 pub(crate) struct Sink {
     trees: Vec<Tree>,
-    /// Those that the step needs.
+    /// Values that the step needs.
     needed: Vec<ValueId>,
 }
 

@@ -35,7 +35,7 @@ const LONGEST: usize = 100;
 struct Node {
     unit: usize,
     q: ValueId,
-    /// Its number in a set.
+    /// Number of the node in a set.
     number: usize,
     /// What it follows from.
     reads: Set,

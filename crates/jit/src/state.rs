@@ -33,7 +33,7 @@ impl State {
         state
     }
 
-    /// These units work on.
+    /// Marks these units as working.
     pub fn wake(&mut self, layout: &Layout, wakes: &Wakes, units: u64) {
         wakes.units(units).for_each(|(unit, clocks)| self.set_byte(layout.counters as usize + unit, clocks));
     }
@@ -83,7 +83,8 @@ impl State {
         self.get(place) >> shift & mask(area.width)
     }
 
-    fn set_word(&mut self, area: Area, index: usize, value: u128) {
+    /// Sets a word of a memory.
+    pub fn set_word(&mut self, area: Area, index: usize, value: u128) {
         let (place, shift) = word_place(area, index);
         let others = self.get(place) & !(mask(area.width) << shift);
         self.set(place, others | value << shift);

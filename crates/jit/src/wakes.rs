@@ -12,7 +12,7 @@ pub(crate) const MOST: usize = 64;
 /// within them.
 pub(crate) const UNASKED: u8 = 4;
 
-/// Who has to know of a change, and for how long.
+/// For each value the units that have to know of a change, and for how long.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Wakes {
     /// The units that have to know that a register or an input has changed.

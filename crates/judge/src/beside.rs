@@ -109,7 +109,7 @@ pub fn beside(
 pub struct Subject<'s> {
     /// The input.
     pub name: &'s str,
-    /// Who draws it.
+    /// The machine that draws it.
     pub machine: &'s Plan,
     /// Triangles only.
     pub frame: &'s Frame,

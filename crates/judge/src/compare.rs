@@ -63,7 +63,7 @@ pub fn compare(machine: &Plan, frame: &Frame, golden: &Raster, drawn: &Raster) -
     compare_for(machine, frame, golden, drawn, None)
 }
 
-/// The same with what is proved for these triangles, where it is known how far they reach.
+/// Like `compare`, with what is proved for these triangles, where it is known how far they reach.
 #[must_use]
 pub fn compare_for(
     machine: &Plan,
@@ -75,7 +75,7 @@ pub fn compare_for(
     compare_shaded(machine, frame, golden, drawn, reach, None)
 }
 
-/// The same of a frame that is shaded at each pixel, with what is proved of its colours.
+/// Like `compare_for`, of a frame that is shaded at each pixel, with what is proved of its colours.
 #[must_use]
 pub fn compare_shaded(
     machine: &Plan,

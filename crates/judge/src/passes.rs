@@ -45,7 +45,7 @@ pub struct Passes {
     pub parts: Vec<Comparison>,
     /// Pixels of the picture of all passes that were compared with the sum of the parts.
     pub added: u64,
-    /// Those that are another colour, depth or triangle.
+    /// Passes whose colour, depth or triangle differs.
     pub wrong: u64,
     /// Largest colour error of the picture, of the pixels where golden decides alike for every light, LSB.
     pub color_error: f64,

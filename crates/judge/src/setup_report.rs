@@ -44,7 +44,7 @@ impl SetupReport {
         report
     }
 
-    /// The same of what is known already: of each triangle S1 + S2, why it was culled, and its pixels.
+    /// Like `new`, of what is known already: of each triangle S1 + S2, why it was culled, and its pixels.
     pub fn of(machine: &Plan, triangles: impl Iterator<Item = (u32, Option<Culled>, u64)>) -> Self {
         let mut report = SetupReport::empty(machine);
         for (clocks, culled, pixels) in triangles {

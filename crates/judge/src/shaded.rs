@@ -32,7 +32,7 @@ pub struct Shaded {
     pub beyond: u64,
     /// Largest distance of the machine's colours from Phong shading, LSB: measured, no bound.
     pub from_phong: f64,
-    /// Its mean.
+    /// Mean distance from Phong shading.
     pub mean_from_phong: f64,
     /// Where a texture is.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -48,7 +48,7 @@ pub struct Looked {
     pub bound: f64,
     /// Pixels with another texel than the one that their place lies in.
     pub differ: u64,
-    /// Those of them that lie farther from that texel than the error of the words.
+    /// Fragments that lie farther from that texel than the error of the words.
     pub unexplained: u64,
     /// Pixels of another colour because the picture's sides do not divide 2^`texture.bits`.
     pub resampled: u64,

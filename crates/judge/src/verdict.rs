@@ -23,7 +23,7 @@ impl Verdict {
         }
     }
 
-    /// That something was drawn: `covered` pixels.
+    /// The verdict of a picture in which `covered` pixels were drawn.
     pub fn drew(covered: u64) -> Self {
         Verdict::of(covered, covered, 0)
     }

@@ -104,7 +104,7 @@ impl Case {
         }
     }
 
-    /// Its ports; of the whole machine also those of the units inside.
+    /// Ports of the unit; of the whole machine also those of the units inside.
     #[must_use]
     pub fn interface(&self) -> Interface {
         match self.unit == Unit::MACHINE {
@@ -121,7 +121,7 @@ impl Case {
         self.run_by(Simulator::new)
     }
 
-    /// The same, the netlist in another simulator.
+    /// Like `run`, the netlist in another simulator.
     ///
     /// # Errors
     /// The first difference, or a machine that does not come to rest.
@@ -138,7 +138,7 @@ impl Case {
         self.run_devices(&interface, &mut *reference, &mut device)
     }
 
-    /// The same with devices from elsewhere, both behind a reset.
+    /// Like `run_by`, with devices from elsewhere, both behind a reset.
     ///
     /// # Errors
     /// The first difference, or a machine that does not come to rest.

@@ -19,10 +19,10 @@ use std::sync::Arc;
 /// Why a netlist cannot draw.
 #[derive(Debug, thiserror::Error)]
 pub enum DrawError {
-    /// It cannot be built.
+    /// The netlist cannot be built.
     #[error("the netlist cannot be built")]
     Build(#[from] BuildErrors),
-    /// It does not have the ports of a machine.
+    /// The netlist does not have the ports of a machine.
     #[error(transparent)]
     Ports(#[from] PortError),
     /// The machine has a constant that a picture does not set.

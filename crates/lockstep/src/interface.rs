@@ -19,7 +19,7 @@ use link::{flag, port_of};
 /// All ports of a unit but `clk` and `rst`.
 #[derive(Clone, Debug)]
 pub struct Interface {
-    /// Whose they are.
+    /// The unit that has the ports.
     pub unit: Unit,
     /// Links: those in, then those out.
     pub links: Vec<Link>,
@@ -59,7 +59,7 @@ impl Interface {
         interface
     }
 
-    /// The same for ports that somebody else declares.
+    /// Like `with_units`, for ports that somebody else declares.
     #[must_use]
     pub fn of_ports(unit: Unit, declared: &Ports) -> Interface {
         let mut interface = Interface {

@@ -10,6 +10,20 @@
 //! interpreter, and what others put behind it. No port and no field is listed here: all come from the declarations, and are
 //! found by name when a run begins. A check that compared nothing has failed: whatever compares here says how much it
 //! compared. No I/O.
+//!
+//! ```
+//! use edgewalk_lockstep::{StallKind, render_rtl};
+//! use edgewalk_machine::{DrawState, Machine};
+//! use edgewalk_model::{Stalls, render};
+//! let plan = Machine { width: 16, height: 12, ..Machine::default() }.plan()?;
+//! let corner = |x, y, red| plan.port_vertex(x, y, &[0.5, red, 0.0, 0.0]);
+//! let triangle = [corner(3.0, 1.5, 1.0)?, corner(13.25, 4.75, 0.0)?, corner(5.5, 10.0, 0.5)?];
+//! let model = render(&plan, [triangle], DrawState::default(), Stalls::NONE)?;
+//! let netlist = render_rtl(&plan, [triangle], DrawState::default(), StallKind::None)?;
+//! assert_eq!((model.z, model.rgb), (netlist.z, netlist.rgb));
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//! Next: [`Case`] compares every port in every cycle; crate `vectors` writes what a run met for a simulator.
 
 pub mod unit;
 pub mod values;

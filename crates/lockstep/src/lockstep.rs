@@ -44,7 +44,7 @@ pub enum LockstepError {
     /// Nothing would be compared.
     #[error("nothing to compare: the model gives no token")]
     Vacuous,
-    /// It did not come to rest.
+    /// The device did not come to rest.
     #[error("still busy after {0} cycles")]
     Busy(u64),
 }
@@ -111,7 +111,7 @@ impl<'a> Lockstep<'a> {
 /// that a run is there to see what the inputs left half done.
 const CUT_SHORT: [(u64, u64); 6] = [(611, 2), (290, 13), (113, 40), (40, 113), (13, 290), (2, 611)];
 
-/// The same of one more where LAMP is: only behind its 1024 words it has work that a reset can end.
+/// Like `CUT_SHORT`, of one more where LAMP is: only behind its 1024 words it has work that a reset can end.
 const CUT_SHORT_OF_LAMP: (u64, u64) = (290, 1327);
 
 /// Runs a netlist beside the model for so many cycles.

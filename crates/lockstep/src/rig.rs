@@ -88,7 +88,7 @@ impl<'a> Rig<'a> {
         Rig::fed(interface, setting, tokens.into_iter())
     }
 
-    /// The same with tokens from elsewhere.
+    /// Like `new`, with tokens from elsewhere.
     #[must_use]
     pub fn fed(
         interface: &Interface,
@@ -115,7 +115,7 @@ impl<'a> Rig<'a> {
         }
     }
 
-    /// The same with the triangle that each token belongs to.
+    /// Like `fed`, with the triangle that each token belongs to.
     #[must_use]
     pub fn of_triangles(self, triangles: Vec<u32>) -> Rig<'a> {
         Rig { triangles, ..self }

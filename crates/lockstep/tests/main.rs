@@ -10,6 +10,7 @@ mod kept;
 mod lights;
 mod memory;
 mod own_pass;
+mod rom;
 mod sequenced;
 mod stalls;
 mod tables;

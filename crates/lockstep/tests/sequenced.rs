@@ -15,10 +15,10 @@ fn machine(keys: &[(&str, &str)], lanes: u32) -> Plan {
     machine.plan().expect("can be built")
 }
 
-/// Every port in every cycle, with 1, 2 and 4 lanes: default formats, a small screen without sub-pixels, channels of several
-/// lengths in several rounds, and a machine that draws its map.
+/// Every port in every cycle of SETUP, and of EDGE behind it, with 1, 2 and 4 lanes: default formats, a small screen without sub-pixels, channels of several
+/// lengths in several rounds, a machine that draws its map, and one that takes lines.
 #[test]
-fn sequenced_setup_equals_its_model() {
+fn sequenced_setup_and_edge_equal_their_models() {
     const CYCLES: u64 = 60_000;
     let several = [
         ("channels.extra", "3"),
@@ -34,24 +34,27 @@ fn sequenced_setup_equals_its_model() {
         ("screen.subpixel_bits", "0"),
         ("screen.guard_bits", "5"),
     ];
+    let lines =
+        [("polygon.lines", "yes"), ("screen.width", "40"), ("screen.height", "30"), ("memory.tag_bits", "3")];
     let map = [("shadow.light", "parallel"), ("shadow.own_pass", "yes"), ("shadow.size", "40")];
     let mut rng = Pcg64Mcg::seed_from_u64(31);
     let mut all = Checked::default();
     let mut machines = 0;
     for lanes in [1, 2, 4] {
-        for keys in [&[][..], &small, &several, &map] {
+        for keys in [&[][..], &small, &several, &map, &lines] {
             let plan = machine(keys, lanes);
-            let unit = Unit::known().find(|unit| unit.name() == "setup").expect("every machine has SETUP");
-            let mut case = Case { seed: 5, cycles: CYCLES, disturbed: 10, ..Case::new(&plan, unit) };
-            case.tokens = random_tokens(&plan, unit, 100, &mut rng);
-            case.state.light_pass = plan.shadow.draws_map();
-            case.resets = vec![CYCLES / 3];
-            all.merge(&checked(&case));
+            for unit in Unit::known().filter(|unit| ["setup", "edge"].contains(&unit.name())) {
+                let mut case = Case { seed: 5, cycles: CYCLES, disturbed: 10, ..Case::new(&plan, unit) };
+                case.tokens = random_tokens(&plan, unit, 100, &mut rng);
+                case.state.light_pass = plan.shadow.draws_map();
+                case.resets = vec![CYCLES / 3];
+                all.merge(&checked(&case));
+            }
             machines += 1;
         }
     }
     println!("{machines} machines, {} tokens, {} values of ports compared", all.tokens, all.compared);
-    assert!(machines == 12 && all.tokens > 300);
+    assert!(machines == 15 && all.tokens > 750);
 }
 
 /// The whole machine, its units compared inside, with stalls at the word port and behind, and resets in the midst of a triangle.

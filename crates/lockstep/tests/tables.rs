@@ -10,14 +10,18 @@ use std::path::Path;
 /// What stands before the tables in the document.
 const MARK: &str = "<!-- tables -->\n";
 
+/// What stands behind them.
+const END: &str = "\n<!-- end of tables -->\n";
+
 #[test]
 fn the_port_tables_are_what_the_units_declare() {
     let plan = Plan::default();
     let tables: String = Unit::all(&plan).into_iter().map(|unit| table(&plan, unit)).collect();
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/machine.md");
     let kept = std::fs::read_to_string(&path).expect("the document");
-    let (before, _) = kept.split_once(MARK).expect("the mark before the tables");
-    let wanted = format!("{before}{MARK}{tables}");
+    let (before, rest) = kept.split_once(MARK).expect("the mark before the tables");
+    let (_, behind) = rest.split_once(END).expect("the mark behind the tables");
+    let wanted = format!("{before}{MARK}{tables}{END}{behind}");
     if std::env::var_os("EDGEWALK_BLESS").is_some() {
         std::fs::write(&path, &wanted).expect("docs can be written");
         return;

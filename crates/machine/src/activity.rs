@@ -85,7 +85,7 @@ impl Activity {
         ][self as usize]
     }
 
-    /// Those that the machine can have.
+    /// The causes that the machine can have.
     pub fn of(plan: &Plan) -> impl Iterator<Item = Activity> {
         let (blends, shadows) = (plan.blend.is_there(), plan.shadow.is_there());
         let (shades, textures) = (plan.shade.is_there(), plan.shade.textures());

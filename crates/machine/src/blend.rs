@@ -6,7 +6,7 @@ use crate::key::Domain::{OneOf, Range};
 use crate::key::{Domain, Key, number, word};
 use crate::machine::{Hazard, Machine};
 
-/// Whose transmission coefficient k_t BLEND takes.
+/// The kind of blending: the transmission coefficient k_t belongs to a triangle or to a pixel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum BlendKind {
     /// Nobody's: the machine has no BLEND.
@@ -20,7 +20,7 @@ pub enum BlendKind {
 /// BLEND, and the colour memory behind it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Blend {
-    /// Whose k_t.
+    /// The kind of blending.
     pub kind: BlendKind,
     /// Bits of k_t below 1.
     pub kt_bits: u32,

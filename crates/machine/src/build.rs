@@ -101,6 +101,6 @@ mod tests {
             let machine = Machine::preset(name).expect("listed");
             assert!(machine.plan().is_ok(), "{name}");
         }
-        assert_eq!(PRESETS.len(), 4);
+        assert_eq!(PRESETS.len(), 6);
     }
 }

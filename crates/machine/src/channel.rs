@@ -26,9 +26,9 @@ pub enum Kind {
 }
 
 impl Kind {
-    /// Those of the user's own channels, in the order of the key's words.
+    /// The kinds that the user's own channels can have, in the order of the key's words.
     pub const ALL: [Kind; 3] = [Kind::Unorm, Kind::Signed, Kind::Floor];
-    /// Their words in files and reports.
+    /// Words of the kinds in files and reports.
     pub const NAMES: [&'static str; 3] = ["unorm", "signed", "floor"];
 
     /// The word in files and reports.
@@ -84,11 +84,11 @@ impl Precision {
 /// One interpolated value of a machine.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Channel {
-    /// Its name in ports, files and reports.
+    /// Name in ports, files and reports.
     pub name: &'static str,
     /// How it is read and rounded.
     pub kind: Kind,
-    /// Its word lengths.
+    /// Word lengths of the channel.
     pub precision: Precision,
 }
 

@@ -26,8 +26,7 @@ pub(crate) fn check(machine: &Machine, channels: &[Channel]) -> Result<(), Machi
         return Err(MachineError::rule(
             machine,
             "texture.kind",
-            "tables hold the colour, so nobody would see the texel's; or set shade.colour = multiply"
-                .to_owned(),
+            "a texture has no effect while shade.colour = tables; or set shade.colour = multiply".to_owned(),
             "none".to_owned(),
         ));
     }
@@ -44,7 +43,7 @@ pub(crate) fn check(machine: &Machine, channels: &[Channel]) -> Result<(), Machi
             machine,
             "shadow.depth_bits",
             format!(
-                "with a share of {} bits, those of a colour, a word of the map would have {map_word}, {MAP_BITS} is the most",
+                "a word of the map would have {map_word} bits, {} of them for the share of light; permitted: at most {MAP_BITS}",
                 machine.color.bits
             ),
             (MAP_BITS - machine.color.bits).to_string(),
@@ -252,9 +251,6 @@ fn sequenced(machine: &Machine) -> Result<(), MachineError> {
     }
     if machine.edge_kind == EdgeKind::Slope {
         return refused("edge.kind = slope, only for exact");
-    }
-    if machine.polygon.has_lines() {
-        return refused("polygon.lines = yes, only for no");
     }
     Ok(())
 }

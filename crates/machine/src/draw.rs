@@ -189,7 +189,7 @@ fn parts(
 pub struct Maps<'a>(Vec<Cow<'a, [u32]>>);
 
 impl<'a> Maps<'a> {
-    /// Those that the host has made.
+    /// The maps that the host has made.
     #[must_use]
     pub fn of_host(maps: &'a [Vec<u32>]) -> Maps<'a> {
         Maps(maps.iter().map(Cow::from).collect())

@@ -9,7 +9,7 @@ use crate::key::{Key, number};
 pub struct ExtraChannel {
     /// How it is read and rounded.
     pub kind: Kind,
-    /// Its word lengths.
+    /// Word lengths of the channel.
     pub precision: Precision,
 }
 

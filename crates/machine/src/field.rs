@@ -20,13 +20,13 @@ pub enum Scale {
 /// One field of a token, or a single port.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Field {
-    /// Its name; behind the link's name and a `_` that of the port.
+    /// Name of the field. The port is called by the link's name, a `_` and this name.
     pub name: String,
     /// Bits before and behind the point, and whether they are two's complement.
     pub format: Format,
     /// What they stand for.
     pub scale: Scale,
-    /// Its meaning, may be empty where name and unit tell it.
+    /// Meaning of the field; may be empty where name and unit tell it.
     pub doc: String,
 }
 

@@ -16,6 +16,9 @@
 //! assert_eq!(plan.clocks_per_pixel(), 4);
 //! assert!(Machine { guard_bits: 2, ..Machine::default() }.plan().is_err());
 //! ```
+//!
+//! Next: crate `model` draws with a plan, crate `rtl` builds its netlist. `edgewalk config explain KEY` tells a key's meaning;
+//! `docs/machine.md` is the specification.
 
 pub mod channel;
 pub mod key;

@@ -1,7 +1,7 @@
 //! The machines that come with the program.
 
 use crate::channel::Precision;
-use crate::machine::{EdgeKind, Fill, Hazard, Machine};
+use crate::machine::{EdgeKind, Fill, Hazard, Machine, SetupKind};
 
 /// Names of the presets, for `--machine` and its hints.
 pub const PRESETS: &[(&str, &str)] = &[
@@ -14,6 +14,14 @@ pub const PRESETS: &[(&str, &str)] = &[
     (
         "ecp5",
         "640x480, 16-bit depth, 8-bit colour, one pixel a clock, one lane: its cells fit a small ECP5, its memories do not",
+    ),
+    (
+        "hx8k",
+        "default, but a triangle comes word by word to a SETUP that is a program: its cells fit an iCE40 HX8K",
+    ),
+    (
+        "up5k",
+        "160x120, 16-bit depth, 5-bit colour, two clocks a pixel, SETUP as a program: fits an iCE40 UP5K with its memories",
     ),
 ];
 
@@ -35,21 +43,35 @@ impl Machine {
                 hazard: Hazard::Drain,
                 ..Machine::default()
             }),
-            "small" => Some(Machine {
-                width: 240,
-                height: 160,
-                guard_bits: 8,
-                subpixel_bits: 3,
-                z: Precision { bits: 16, fraction: 10, vertex_fraction: 0 },
-                color: Precision { bits: 5, fraction: 10, vertex_fraction: 0 },
-                span_fifo: 1,
-                inflight: 2,
-                latency: 1,
-                ..narrow()
-            }),
+            "small" => Some(small()),
             "ecp5" => Some(narrow()),
+            "hx8k" => Some(Machine { setup_kind: SetupKind::Sequenced, ..Machine::default() }),
+            // A pixel's read and its write share the one port of a block.
+            "up5k" => Some(Machine {
+                setup_kind: SetupKind::Sequenced,
+                width: 160,
+                height: 120,
+                adders: 2,
+                ..small()
+            }),
             _ => None,
         }
+    }
+}
+
+/// What fits the cells of an iCE40 UP5K.
+fn small() -> Machine {
+    Machine {
+        width: 240,
+        height: 160,
+        guard_bits: 8,
+        subpixel_bits: 3,
+        z: Precision { bits: 16, fraction: 10, vertex_fraction: 0 },
+        color: Precision { bits: 5, fraction: 10, vertex_fraction: 0 },
+        span_fifo: 1,
+        inflight: 2,
+        latency: 1,
+        ..narrow()
     }
 }
 

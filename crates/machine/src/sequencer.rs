@@ -14,7 +14,7 @@ use word::Word;
 pub const LISTING: &str = include_str!("sequencer/listing.txt");
 
 /// Rows that have names; behind them come those of the vertices.
-pub const NAMED_ROWS: u8 = 64;
+pub const NAMED_ROWS: u8 = 128;
 
 /// The program of one machine.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -32,9 +32,9 @@ impl Program {
     /// Never: a test reads the listing for each set of features.
     #[must_use]
     pub fn of(plan: &Plan) -> Program {
-        let beside = edges_are_beside(plan);
-        let features: &[&str] = if beside { &["beside"] } else { &[] };
-        let parsed = parse::parse(LISTING, features).expect("the listing has no error");
+        let features = [("beside", edges_are_beside(plan)), ("lines", plan.polygon.has_lines())];
+        let features: Vec<&str> = features.into_iter().filter(|(_, is)| *is).map(|(name, _)| name).collect();
+        let parsed = parse::parse(LISTING, &features).expect("the listing has no error");
         Program { words: parsed.words, rows: parsed.rows, labels: parsed.labels }
     }
 
@@ -68,15 +68,19 @@ pub fn rounds(plan: &Plan) -> usize {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::Machine;
+    use crate::{Lines, Machine};
 
     #[test]
     fn listing_has_words_for_each_number_of_lanes() {
         for lanes in [1, 2, 4] {
-            let plan = Machine { lanes, ..Machine::default() }.plan().expect("can be built");
-            let program = Program::of(&plan);
+            let mut machine = Machine { lanes, ..Machine::default() };
+            let without = Program::of(&machine.plan().expect("can be built")).words.len();
+            machine.polygon.lines = Lines::Yes;
+            let program = Program::of(&machine.plan().expect("can be built"));
+            assert_eq!(program.words.len(), without + 1);
+            assert_eq!([program.row("height"), program.row("width")], [4, 6], "a flat line exchanges them");
             assert!((200..=512).contains(&program.words.len()), "{} words", program.words.len());
-            assert!(program.rows.values().all(|row| *row < NAMED_ROWS - 3));
+            assert!(program.rows.values().all(|row| *row <= NAMED_ROWS - 8));
             let places = program.words.iter().filter_map(|word| word.control.place());
             assert!(places.count() > 20, "words that name a place");
         }

@@ -43,7 +43,7 @@ pub enum Transmits {
     Yes,
 }
 
-/// Who draws the map.
+/// The one that draws a light's map: the host, or the machine in a pass of its own.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum OwnPass {
     /// Somebody else.
@@ -75,7 +75,7 @@ pub struct Shadow {
     pub gate: Gate,
     /// What a word of the map says beside the depth.
     pub transmits: Transmits,
-    /// Who draws it.
+    /// The one that draws the map.
     pub own_pass: OwnPass,
     /// Depth of its queue, fragments.
     pub queue: u32,

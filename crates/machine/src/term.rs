@@ -6,7 +6,7 @@ use crate::shade::ShadeKind;
 /// A polynomial in the place of a pixel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Term {
-    /// Its name in ports and reports.
+    /// Name in ports and reports.
     pub name: &'static str,
     /// 1 or 2.
     pub degree: u32,
@@ -43,7 +43,7 @@ const REACH_BITS: u32 = 25;
 /// What SHADE takes, light by light: N·L and N·H in entries of a table.
 pub(crate) const COSINES: [[&str; 2]; 2] = [["nl0", "nh0"], ["nl1", "nh1"]];
 
-/// The same of a normal of any length.
+/// Like `COSINES`, of a normal of any length.
 const PRODUCTS: [[&str; 2]; 2] = [["pl0", "ph0"], ["pl1", "ph1"]];
 
 /// What LAMP takes: l·l, N·l, l·V, the light's axis times -l, N·V.

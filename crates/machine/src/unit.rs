@@ -13,7 +13,7 @@ pub struct Event {
     pub name: &'static str,
     /// What happens.
     pub doc: &'static str,
-    /// It can happen in this machine.
+    /// Whether the event can happen in this machine.
     pub can_happen: fn(&Plan) -> bool,
 }
 
@@ -67,17 +67,17 @@ pub struct Ports {
 
 /// One unit of the machine, said once.
 pub struct UnitSpec {
-    /// Its name in files, modules, suites and documents.
+    /// Name of the unit in files, modules, suites and documents.
     pub name: &'static str,
     /// What it does, in a line.
     pub purpose: &'static str,
-    /// Its section of `docs/machine.md`.
+    /// Section of `docs/machine.md`.
     pub section: u32,
     /// The machine has it.
     pub present: fn(&Plan) -> bool,
     /// The channels it wants interpolated.
     pub wants: fn(&Machine) -> Vec<Channel>,
-    /// Its ports.
+    /// Ports of the unit.
     pub ports: fn(&Plan) -> Ports,
     /// What can happen to it.
     pub events: &'static [Event],

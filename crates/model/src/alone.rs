@@ -18,7 +18,7 @@ use crate::texel::Texel;
 use crate::tokens::Sourced;
 use edgewalk_machine::Plan;
 
-/// Whoever wants a unit of any type.
+/// A visitor of a unit of any type.
 pub trait Visit<const C: usize> {
     /// What is made of it.
     type Out;

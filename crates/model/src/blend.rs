@@ -30,7 +30,7 @@ use edgewalk_machine::{BlendKind, Hazard, Plan};
 pub struct BlendInputs {
     /// Colours of fragments that pass the depth test go on to BLEND.
     pub color_write: bool,
-    /// It adds, else it mixes.
+    /// BLEND adds; else it mixes.
     pub add: bool,
     /// The memory takes a read.
     pub crd_ready: bool,

@@ -42,7 +42,7 @@ impl<const C: usize> ColorMemory<C> {
         }
     }
 
-    /// This colour everywhere.
+    /// Fills the memory with one colour.
     pub(crate) fn clear(&mut self, color: [u64; 3]) {
         self.rgb.fill(packed(color, self.bits));
     }

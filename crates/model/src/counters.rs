@@ -56,7 +56,7 @@ impl Counters {
         self.inflight = self.inflight.wrapping_add(fragments as u64);
     }
 
-    /// These and what comes after them.
+    /// Adds the counters of a later part of the run.
     #[must_use]
     pub fn and(&self, after: &Counters) -> Counters {
         Counters {

@@ -45,7 +45,7 @@ pub struct DepthInputs {
 /// State of DEPTH.
 #[derive(Clone, Debug)]
 pub struct Depth<const C: usize> {
-    /// Its w is the whole write without BLEND, that of the depth with BLEND.
+    /// The queue and w. Without BLEND w is the whole write, with BLEND that of the depth.
     /// Fragments travel beside their depths.
     rmw: Rmw<u32, Fragment<C>>,
     fork: Fork<C>,

@@ -8,7 +8,8 @@
 //! Formats: columns of COLW bits, remainders below M, values of b + r bits, all modular.
 //!
 //! Timing: a prim taken in cycle n gives its first line in n + 1, then a line a clock; the next prim is taken at the
-//! earliest in the cycle after the last line.
+//! earliest in the cycle after the last line. Behind a sequenced SETUP the prim stays at the port while it is walked, and is
+//! taken behind its last line.
 //!
 //! Rules: `docs/machine.md`, section 3. Not modelled: nothing.
 
@@ -29,6 +30,10 @@ pub struct Edge<const C: usize> {
     /// 2^(b+r-1) of signed channels, else 0: with this bit turned the range of a word begins at 0.
     signs: Words<C>,
     running: bool,
+    /// A prim stays at the port while it is walked.
+    stays: bool,
+    /// The triangle is walked, and not taken yet.
+    walked: bool,
     /// The line offered: y, columns C of both edges, values, marks.
     line: Line<C>,
     /// Lines remaining in each part.
@@ -49,6 +54,8 @@ impl<const C: usize> Edge<C> {
             masks: word_masks(plan),
             signs: per_channel(plan, |c| u64::from(c.kind.is_signed()) << (c.word() - 1)),
             running: false,
+            stays: plan.is_sequenced(),
+            walked: false,
             line: Line::default(),
             remaining: [0; 2],
             major: EdgeWalk::default(),
@@ -60,6 +67,7 @@ impl<const C: usize> Edge<C> {
     /// Synchronous reset.
     pub fn reset(&mut self) {
         self.running = false;
+        self.walked = false;
     }
 
     /// A triangle is being walked, and its line is valid.
@@ -69,11 +77,12 @@ impl<const C: usize> Edge<C> {
         self.running
     }
 
-    /// A prim can be taken: no triangle runs, and PIXEL has taken the gradients of the last.
+    /// A prim can be taken: no triangle runs, and PIXEL has taken the gradients of the last. One that stays at the port has been
+    /// walked.
     #[inline]
     #[must_use]
     pub fn prim_ready(&self, fresh_queued: bool) -> bool {
-        !self.running && !fresh_queued
+        !self.running && !fresh_queued && (self.walked || !self.stays)
     }
 
     /// The line offered to SPAN.
@@ -119,8 +128,10 @@ impl<const C: usize> Edge<C> {
             } else {
                 self.wait(events);
             }
+        } else if self.walked {
+            self.walked = fresh_queued;
         } else if let Some(prim) = prim {
-            if fresh_queued {
+            if fresh_queued && !self.stays {
                 events.edge.fresh_wait += 1;
             } else {
                 self.load(prim);
@@ -161,6 +172,7 @@ impl<const C: usize> Edge<C> {
         self.remaining = if n1 > 0 { [n1 - 1, n2] } else { [0, n2 - 1] };
         self.running = n1 + n2 > 1;
         if !self.running {
+            self.walked = self.stays;
             return;
         }
         if knee {

@@ -32,7 +32,7 @@ pub struct Frame {
     pub maps: Vec<Vec<u32>>,
     /// Performance counters, of all passes.
     pub counters: Counters,
-    /// The same of each pass.
+    /// Like `counters`, of each pass.
     pub passes: Vec<Counters>,
     /// Events of the units.
     pub events: Events,

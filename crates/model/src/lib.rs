@@ -9,6 +9,21 @@
 //! from the inputs that reach them within the cycle, `step` is the clock edge. [`Model`] wires the units together,
 //! [`Rig`] adds the memory, [`render`] draws. No I/O; nothing
 //! here fails on a planned machine but vertices of another.
+//!
+//! ```
+//! use edgewalk_machine::Machine;
+//! use edgewalk_model::{DrawState, Stalls, render};
+//! let plan = Machine { width: 16, height: 12, ..Machine::default() }.plan()?;
+//! // Columns, lines; depth, red, green, blue from 0 to 1.
+//! let corner = |x, y, red| plan.port_vertex(x, y, &[0.5, red, 0.0, 0.0]);
+//! let triangle = [corner(3.0, 1.5, 1.0)?, corner(13.25, 4.75, 0.0)?, corner(5.5, 10.0, 0.5)?];
+//! let frame = render(&plan, [triangle], DrawState::default(), Stalls::NONE)?;
+//! assert_eq!(frame.coverage.iter().sum::<u32>(), 39);
+//! assert_eq!(frame.counters.cycles, 130);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//! Next: [`fast`] gives the same pictures and counts without ticking; crate `lockstep` runs the netlist beside the model;
+//! crate `replay` records what each unit holds.
 
 // What moves: tokens with their names, and what is beside them.
 pub mod named;

@@ -146,7 +146,7 @@ impl<const C: usize> Model<C> {
         self.cycle_and_tell(inputs, |_| {})
     }
 
-    /// The same; who wants to be near the pixels in time is told the line that SPAN takes.
+    /// Like `cycle`; calls `tell` with each line that SPAN accepts.
     #[inline(always)]
     pub(crate) fn cycle_and_tell(&mut self, inputs: &Inputs, tell: impl FnOnce(&Line<C>)) -> Outputs<C> {
         let outputs =

@@ -81,7 +81,7 @@ impl<const C: usize> Memory<C> {
         self.served.data().map(u64::from)
     }
 
-    /// These two columns of a line, px on the screen or beside it, are likely to be asked for. Not hardware: it changes nothing but
+    /// Tells that two columns of a line, px on the screen or beside it, will soon be asked for. Not hardware: it changes nothing but
     /// the host's time.
     #[inline(always)]
     pub fn expect(&self, line: u32, columns: [i32; 2]) {

@@ -68,7 +68,7 @@ pub struct Place {
 }
 
 impl Place {
-    /// The same behind so many names of another token.
+    /// The place behind so many names of another token.
     pub(crate) fn behind(self, names: u16) -> Place {
         Place { name: self.name + names, ..self }
     }

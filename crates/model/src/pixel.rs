@@ -163,7 +163,7 @@ impl<const C: usize> Pixel<C> {
         (self.x, self.row >> self.pass.x_bits)
     }
 
-    /// Its triangle, while active.
+    /// The triangle of the span, while active.
     #[must_use]
     pub fn source(&self) -> Source {
         self.source

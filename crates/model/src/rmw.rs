@@ -22,7 +22,7 @@ const PLACES: usize = 16;
 /// Why no access can enter.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Block {
-    /// Its pixel may still be in flight.
+    /// The fragment's pixel may still be in flight.
     Hazard,
     /// The in-flight queue is full.
     Full,
@@ -36,7 +36,7 @@ pub(crate) struct Retired<T> {
     slot: usize,
     /// The word before this access.
     pub old: T,
-    /// It comes from an older access, not from the memory.
+    /// The value comes from an older access, not from the memory.
     pub forwarded: bool,
 }
 
@@ -47,7 +47,7 @@ pub(crate) struct Outcome<T, S> {
     pub side: S,
     /// The new word.
     pub word: T,
-    /// It is stored; what is beside it is in any case.
+    /// The value is stored; the data beside it are stored in any case.
     pub stored: bool,
 }
 
@@ -169,7 +169,7 @@ impl<T: Copy + Default, S: Copy + Default> Rmw<T, S> {
         self.w_valid.then_some(&self.w)
     }
 
-    /// Those of the queue, the oldest first. One after the other: places asked all at once would be read as one word of the host,
+    /// Slots of the queue, the oldest first. One after the other: places asked all at once would be read as one word of the host,
     /// which waits until the word of the cycle before is written.
     #[inline]
     fn slots(&self) -> impl Iterator<Item = usize> + use<T, S> {

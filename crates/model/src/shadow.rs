@@ -38,7 +38,7 @@ struct Entry<const C: usize> {
     fragment: Fragment<C>,
     /// No texel decides.
     known: bool,
-    /// It is lit, if that is known.
+    /// The fragment is lit, if that is known.
     value: bool,
     /// Depth from the light.
     d: i64,

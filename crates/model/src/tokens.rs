@@ -241,7 +241,7 @@ tokens! {
 }
 
 impl<const C: usize> Prim<C> {
-    /// Its spans run to the left.
+    /// The triangle's spans run to the left.
     #[inline(always)]
     pub(crate) fn runs_left(&self, textbook: bool) -> bool {
         self.major_right && !textbook && !self.thin

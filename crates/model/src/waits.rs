@@ -99,7 +99,7 @@ impl Waits {
         }
     }
 
-    /// Those of another memory: as often, but at random in other cycles.
+    /// Waits of another memory: as often, but at random in other cycles.
     pub(crate) fn of_another(self, number: u64) -> Waits {
         match self {
             Waits::Random(stalls) => {

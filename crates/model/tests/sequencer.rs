@@ -5,8 +5,8 @@ use crate::common::{Triangle, any_triangle, random_machine};
 use edgewalk_machine::sequencer::Program;
 use edgewalk_machine::sequencer::word::{Base, Control, Only, Sign, Word};
 use edgewalk_machine::{MAX_CHANNELS, Machine, Plan, SetupKind};
-use edgewalk_model::setup::Setup;
 use edgewalk_model::setup::sequencer::SlowSetup;
+use edgewalk_model::setup::{Setup, SetupClocks};
 use edgewalk_model::tokens::{EdgeWalk, Prim};
 use edgewalk_model::{Culled, Events, longest_setup, setup_clocks};
 use rand::{Rng, SeedableRng, rngs::StdRng};
@@ -52,16 +52,18 @@ impl Seen {
             let context = || format!("{triangle:?} on {plan:?}");
             if !light_pass {
                 // Counted without running the program, as the machine's model does.
-                assert_eq!(setup_clocks(&sequenced, &triangle).phase1, ran.clocks, "S of {}", context());
-                assert!(ran.clocks <= longest_setup(&sequenced).all(), "the longest: {}", context());
+                let SetupClocks { phase1, phase2 } = setup_clocks(&sequenced, &triangle);
+                assert_eq!([phase1, phase2], [ran.clocks, ran.load], "S and L of {}", context());
+                let longest = longest_setup(&sequenced);
+                assert!(ran.clocks <= longest.phase1 && ran.load <= longest.phase2, "longest: {}", context());
             }
             assert_eq!(ran.early, 0, "rows and checks are waited for: {}", context());
             let causes = [Culled::Lines, Culled::Columns, Culled::Area];
             assert_eq!(causes.map(|cause| u64::from(ran.culled == Some(cause))), culled, "{}", context());
             if let Some(prim) = prim {
                 assert_eq!(ran.prim, prim, "{}", context());
-                self.clocks += u64::from(ran.clocks);
-                self.most = self.most.max(ran.clocks);
+                self.clocks += u64::from(ran.clocks + ran.load);
+                self.most = self.most.max(ran.clocks + ran.load);
             }
             for (all, one) in self.culled.iter_mut().zip(culled) {
                 *all += one;

@@ -90,9 +90,10 @@ fn setup_table(table: &mut String) {
     let _ = writeln!(
         table,
         "## Setup\nClocks of a triangle in SETUP, S1 + S2 (edges and cull, channels), for every number of lanes; corners in pixels, every\n\
-         channel at 0, a half and full scale. From one triangle to the next it is two clocks more, where drawing is not waited for;\n\
-         after a culled one, one more. A triangle outside the lines or columns of the screen takes 2. *Bound*: what the formats allow.\n\
-         *slope*: the default machine with edges of 16 fraction bits; *narrow*: vertices of 11 + 4 bits, z of 16 + 10 and colours of 8 + 10 bits.\n\n\
+         channel at 0, a half and full scale. From one triangle to the next it is two clocks more, where drawing is not waited\n\
+         for; after a culled one, one more. A triangle outside the lines or columns of the screen takes 2. *Bound*: what the\n\
+         formats allow. *slope*: the default machine with edges of 16 fraction bits; *narrow*: vertices of 11 + 4 bits, z of 16 +\n\
+         10 and colours of 8 + 10 bits.\n\n\
          | machine | lanes | 3 pixels {:?} | area 60 {:?} | the screen {:?} | no area {FLAT:?} | bound |\n|---|---|---|---|---|---|---|",
         SHAPES[0], SHAPES[1], SHAPES[2]
     );
@@ -142,8 +143,8 @@ fn spread(mut clocks: Vec<u32>) -> (f64, u32, u32) {
 fn set_table(table: &mut String) {
     let _ = writeln!(
         table,
-        "\nThe same of many triangles at 640x480, S1 + S2 of those that are not culled: the scene `torus-knot` (small triangles of a smooth surface),\n\
-         and 2,000 of 60 pixels, of any shape but needles, all values at random.\n\n\
+        "\nThe same of many triangles at 640x480, S1 + S2 of those that are not culled: the scene `torus-knot` (small triangles\n\
+         of a smooth surface), and 2,000 of 60 pixels, of any shape but needles, all values at random.\n\n\
          | machine | lanes | torus-knot: mean | 95 % | most | random: mean | 95 % | most |\n|---|---|---|---|---|---|---|---|"
     );
     for (name, machine) in machines() {
@@ -193,11 +194,12 @@ fn mix_table(table: &mut String) {
     assert_eq!(sizes, [3900, 2200, 1900, 1300, 700]);
     let _ = writeln!(
         table,
-        "\n## Sizes as programs send them\nOf 194,000 triangles captured from 20 OpenGL programs at 640x480 39 % covered no pixel, 22 % one to three, 7 % 64 or more; setup\n\
-         took 88 % of the cycles. A frame of 10,000 with these shares, made by seed (`cargo run --release -p edgewalk-model --example mix > mix.tri`;\n\
-         `edgewalk render mix.tri` reports them): {} without a pixel, of which 600 lie off the screen and 300 have no area, {} of 1 to 3 pixels, {} of\n\
-         4 to 15, {} of 16 to 63 and {} of 64 to 600; {} fragments. Cycles by cause, and those of the machine that divided (four lanes of radix 4, 223 clocks\n\
-         a triangle, 48 culled; commit bcc1d49 drew the same file, 22 November 2026):\n\n\
+        "\n## Sizes as programs send them\nOf 194,000 triangles captured from 20 OpenGL programs at 640x480 39 % covered no pixel, 22 % one to three, 7 % 64 or\n\
+         more; setup took 88 % of the cycles. A frame of 10,000 with these shares, made by seed (`cargo run --release -p\n\
+         edgewalk-model --example mix > mix.tri`; `edgewalk render mix.tri` reports them): {} without a pixel, of which 600\n\
+         lie off the screen and 300 have no area, {} of 1 to 3 pixels, {} of 4 to 15, {} of 16 to 63 and {} of 64 to\n\
+         600; {} fragments. Cycles by cause, and those of the machine that divided (four lanes of radix 4, 223 clocks a\n\
+         triangle, 48 culled; commit bcc1d49 drew the same file, 22 November 2026):\n\n\
          | machine | {} | all | to that |\n|---|{}---|---|",
         sizes[0],
         sizes[1],

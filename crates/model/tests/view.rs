@@ -160,6 +160,9 @@ fn the_jobs_of_setup_fill_its_clocks() {
                 assert!(job > 0 && (1..=of).contains(&clock), "{now:?} behind {before:?}");
                 clocks += 1;
             }
+            if plan.is_sequenced() && state == 1 && clock == of && before == Some(now) {
+                return; // the last word of WORK is repeated while EDGE reads the prim before
+            }
             match before {
                 Some([was, old, last, all]) if works && was == state && last < all => {
                     assert_eq!([job, clock, of], [old, last + 1, all], "a job goes on");

@@ -1,4 +1,11 @@
 //! The name that was meant by one that does not exist: for the end of an error message.
+//!
+//! ```
+//! let kinds = ["none", "constant", "interpolated"];
+//! assert_eq!(edgewalk_nearest::nearest("constnat", kinds), Some("constant"));
+//! assert_eq!(edgewalk_nearest::nearest("glass", kinds), None);
+//! ```
+//! Next: [`Unknown`] is the error with the list of what is permitted; crate `machine` uses it for keys.
 
 use std::fmt;
 

@@ -41,11 +41,11 @@ pub enum Fault {
     Width {
         /// The register, port or wire driven.
         target: String,
-        /// Its width.
+        /// Width that is wanted.
         wanted: u32,
         /// What should drive it.
         signal: String,
-        /// That one's width.
+        /// Width that was found.
         found: u32,
     },
     /// A declared width outside 1..=128.
@@ -70,7 +70,7 @@ pub enum Fault {
     /// A signal of another module.
     #[error("`{signal}` belongs to another module")]
     Foreign {
-        /// Its name there.
+        /// Name of the signal in the other module.
         signal: String,
     },
     /// Not a Verilog identifier, or a word of the language.
@@ -88,19 +88,19 @@ pub enum Fault {
     /// Two different modules of one name in one hierarchy.
     #[error("there are two different modules `{name}` in it")]
     DuplicateModule {
-        /// Their name.
+        /// Name of both modules.
         name: String,
     },
     /// A register that is never updated, a wire or an instance's input that nothing drives.
     #[error("nothing drives `{name}`")]
     Undriven {
-        /// Its name, `instance.port` for an instance's input.
+        /// Name of the signal, `instance.port` for an instance's input.
         name: String,
     },
     /// A wire or an instance's input with two drivers.
     #[error("`{name}` is driven twice")]
     DrivenTwice {
-        /// Its name, `instance.port` for an instance's input.
+        /// Name of the signal, `instance.port` for an instance's input.
         name: String,
     },
     /// An instance has no such port.
@@ -118,7 +118,7 @@ pub enum Fault {
     /// A memory whose address is not just wide enough for its words, or that has fewer than two.
     #[error("memory `{name}`: {words} words with an address of {addr_bits} bits")]
     MemorySize {
-        /// Its name.
+        /// Name of the memory.
         name: String,
         /// Words.
         words: usize,
@@ -128,7 +128,7 @@ pub enum Fault {
     /// Contents beyond a memory's last word.
     #[error("memory `{name}` has {words} words: there is no word {address} to hold anything")]
     NoWord {
-        /// Its name.
+        /// Name of the memory.
         name: String,
         /// Words.
         words: usize,
@@ -148,7 +148,7 @@ pub enum Fault {
         "nothing writes memory `{name}`, but word {word} has no contents: every word of a ROM needs them"
     )]
     UnknownWord {
-        /// Its name.
+        /// Name of the memory.
         name: String,
         /// The first word without contents.
         word: usize,

@@ -31,6 +31,8 @@
 //! module unseen; there are no latches, no other clocks, no tri-states, no asynchronous memory reads.
 //!
 //! The meaning of every operator is the table in [`ops`].
+//!
+//! Next: crate `verilog` prints a netlist, crate `jit` compiles it, crate `rtl` builds the machine's.
 
 mod build;
 mod describe;

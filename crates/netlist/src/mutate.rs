@@ -28,7 +28,7 @@ enum Change {
     Source(NodeId, Source),
     /// The condition of update `update` of a register is always 1.
     AlwaysUpdate { register: usize, update: usize },
-    /// That update never happens; there are others.
+    /// One update never happens; the register has others.
     NeverUpdate { register: usize, update: usize },
     /// The reset value of a register, or none.
     Reset(usize, Option<u128>),

@@ -24,7 +24,7 @@ impl NodeId {
 pub struct Netlist {
     /// The module's name, a legal Verilog identifier.
     pub name: String,
-    /// Its header text: purpose, picture, formats, timing. May have several lines.
+    /// Header text: purpose, picture, formats, timing. May have several lines.
     pub doc: String,
     /// All values of the module.
     pub nodes: Vec<Node>,
@@ -44,9 +44,9 @@ pub struct Netlist {
     pub items: Vec<Item>,
     /// For each output the inputs it depends on without a register between, ascending.
     pub paths: Vec<Vec<usize>>,
-    /// It, or an instance in it, has a register or a memory: there is a port `clk`.
+    /// The module, or an instance in it, has a register or a memory: there is a port `clk`.
     pub has_clock: bool,
-    /// It, or an instance in it, has a register with reset: there is a port `rst`.
+    /// The module, or an instance in it, has a register with reset: there is a port `rst`.
     pub has_reset: bool,
 }
 
@@ -96,7 +96,7 @@ pub enum Source {
 /// An input port.
 #[derive(Clone, Debug)]
 pub struct Input {
-    /// Its name.
+    /// Name of the port.
     pub name: String,
     /// Format and unit, or empty.
     pub doc: String,
@@ -107,7 +107,7 @@ pub struct Input {
 /// An output port.
 #[derive(Clone, Debug)]
 pub struct Output {
-    /// Its name; the same as that of a register or wire if and only if that one drives it.
+    /// Name of the port. A register or wire has the same name if and only if it drives the port.
     pub name: String,
     /// Format and unit, or empty.
     pub doc: String,
@@ -118,7 +118,7 @@ pub struct Output {
 /// A wire with a name for the reader.
 #[derive(Clone, Debug)]
 pub struct Wire {
-    /// Its name.
+    /// Name of the wire.
     pub name: String,
     /// Format and unit, or empty.
     pub doc: String,
@@ -132,7 +132,7 @@ pub struct Wire {
 /// is 1; else as before. Before the first of these it is 0 here and unknown in Verilog.
 #[derive(Clone, Debug)]
 pub struct Register {
-    /// Its name.
+    /// Name of the register.
     pub name: String,
     /// Format and unit, or empty.
     pub doc: String,
@@ -157,7 +157,7 @@ pub struct Update {
 /// write is lost and such a read is 0, in Verilog it is unknown.
 #[derive(Clone, Debug)]
 pub struct Memory {
-    /// Its name.
+    /// Name of the memory.
     pub name: String,
     /// What a word is, or empty.
     pub doc: String,
@@ -167,7 +167,7 @@ pub struct Memory {
     pub words: usize,
     /// Bits of a word.
     pub width: u32,
-    /// Its words at the start. A reset does not bring them back: a word that was written stays as written.
+    /// Words at the start. A reset does not bring them back: a word that was written stays as written.
     pub contents: Contents,
     /// Write ports; of two writes to one address the later port wins. A memory without one is a ROM: the contents of all its words
     /// are known.
@@ -233,7 +233,7 @@ pub struct MemoryRead {
 /// A module used inside another; `clk` and `rst` are passed on unseen.
 #[derive(Clone, Debug)]
 pub struct Instance {
-    /// Its name.
+    /// Name of the instance.
     pub name: String,
     /// What it is an instance of.
     pub module: Arc<Netlist>,

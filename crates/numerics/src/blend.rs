@@ -9,7 +9,7 @@ pub fn blend_error(back: f64, front: f64, far: f64, kt: f64, kt_error: f64) -> f
     kt * back + (1.0 - kt) * front + far * kt_error + 0.5
 }
 
-/// The same with golden's k_t instead of the machine's, which lies within `kt_error` of it and of 0 to 1.
+/// Like `blend_error`, with golden's k_t instead of the machine's, which lies within `kt_error` of it and of 0 to 1.
 #[must_use]
 pub fn blend_error_of_golden(back: f64, front: f64, far: f64, kt: f64, kt_error: f64) -> f64 {
     blend_error(back, front, far, kt, kt_error) + kt_error * (back - front).abs()

@@ -38,7 +38,7 @@ impl<F: Rising> IndexTable<F> {
         Self { entries: (0..=last).map(entry).collect(), function }
     }
 
-    /// The same with the function's least value for the first entry, whatever its bin.
+    /// Like `new`, with the function's least value for the first entry, whatever its bin.
     #[must_use]
     pub fn from_least(bits: u32, function: F) -> Self {
         let mut table = Self::new(bits, function);

@@ -45,7 +45,7 @@ pub enum SolverError {
     Limit {
         /// Which number.
         name: &'static str,
-        /// Its value.
+        /// Value of the number.
         value: u32,
         /// Least permitted.
         low: u32,

@@ -29,7 +29,7 @@ pub enum Part {
     Number {
         /// `name = formula = numbers`.
         formula: String,
-        /// Its value.
+        /// Value of the number.
         value: i128,
         /// What holds it.
         check: Option<Check>,
@@ -41,7 +41,7 @@ pub enum Part {
 pub struct Check {
     /// Unit and register in words.
     pub name: String,
-    /// Its number; `None`: it is no register.
+    /// Number of the register; `None`: the figure stands in none.
     pub register: Option<usize>,
     /// Place of the field in its token.
     pub field: Option<usize>,
@@ -51,7 +51,7 @@ pub struct Check {
     pub expected: u64,
     /// What it holds.
     pub found: u64,
-    /// The same, read with its sign.
+    /// Like `found`, read with its sign.
     pub shown: i128,
 }
 
@@ -71,7 +71,7 @@ pub struct Step {
 /// The whole of it.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Lesson {
-    /// Its steps: of the channels one is shown.
+    /// Steps of the lesson: of the channels one is shown.
     pub steps: Vec<Step>,
     /// Every number that has a register, of all channels.
     pub checks: Vec<Check>,

@@ -53,7 +53,7 @@ pub fn edge(plan: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
         "fence" => line.get("fence").unwrap_or(line["fresh"]).q(),
         own => line[own].q(),
     });
-    ports.hold("inc", |f| increments[f].q());
+    ports.hold("inc", |f| increments[f]);
     m.finish()
 }
 

@@ -7,6 +7,16 @@
 //! A function a unit takes a [`Plan`](edgewalk_machine::Plan), the checked machine, and builds the unit's netlist with the ports
 //! that [`edgewalk_machine::UNITS`] declares; [`BUILDERS`] lists the functions, [`machine`] joins what they build.
 //! What it does not know: the model, files, Verilog text.
+//!
+//! ```
+//! use edgewalk_machine::Plan;
+//! let plan = Plan::default();
+//! let span = edgewalk_rtl::span(&plan)?;
+//! assert_eq!(span.name, "edgewalk_span");
+//! assert!(edgewalk_rtl::machine(&plan).is_ok());
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//! Next: crate `verilog` prints a netlist; crate `lockstep` runs it beside the model; `docs/adding_a_unit.md` adds a unit.
 
 mod wires;
 mod ports;
@@ -67,7 +77,7 @@ pub use memory::memory;
 pub use normal::normal;
 pub use pixel::pixel;
 pub use project::project;
-pub use setup::setup;
+pub use setup::{RomWord, program_rom, setup};
 pub use shade::shade;
 pub use shadow::shadow;
 pub use span::span;

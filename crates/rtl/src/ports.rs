@@ -114,7 +114,7 @@ impl<'m> Interface<'m> {
         Token::new(parts(&link.fields), field).output(self.m, link.name);
     }
 
-    /// The same of another link that leads to a memory.
+    /// Like `give`, of another link that leads to a memory.
     pub fn write(&self, name: &str, valid: impl Operand<'m>, field: impl Fn(&str) -> Signal<'m>) {
         let link = self.writes_link(name);
         self.m.output(&format!("{}_valid", link.name), valid);

@@ -108,7 +108,7 @@ struct Follows<'m> {
 
 /// What a place of the queue does in a cycle.
 struct Move<'m> {
-    /// It takes the entry behind it, or what enters.
+    /// The entry takes the one behind it, or the one that enters.
     moves: Signal<'m>,
     /// There is one behind it; no place is behind the last.
     has_next: Option<Signal<'m>>,
@@ -120,16 +120,16 @@ pub(crate) struct Enter<'m> {
     pub hazard: Signal<'m>,
     pub read_valid: Signal<'m>,
     pub frag_ready: Signal<'m>,
-    /// It enters in this cycle.
+    /// The access enters in this cycle.
     push: Signal<'m>,
 }
 
 /// How the head leaves.
 pub(crate) struct Turn<'m> {
     pub data_ready: Signal<'m>,
-    /// It leaves in this cycle.
+    /// The head leaves in this cycle.
     pub fires: Signal<'m>,
-    /// It does if there is one.
+    /// A head that is there leaves.
     goes: Signal<'m>,
 }
 

@@ -7,7 +7,7 @@ use crate::ports::FromMemory;
 
 /// The words.
 pub(crate) struct Roots<'m> {
-    /// They are inside.
+    /// The table is inside.
     pub have: Signal<'m>,
     pub loading: Signal<'m>,
     pub read_valid: Signal<'m>,

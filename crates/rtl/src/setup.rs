@@ -17,6 +17,8 @@ mod results;
 
 mod sequencer;
 
+pub use sequencer::{RomWord, program_rom};
+
 use std::sync::Arc;
 
 use edgewalk_machine::Plan;

@@ -150,9 +150,9 @@ impl<'m> Texel<'m> {
 
 /// What is said of a fragment without a look at the map.
 struct Found<'m> {
-    /// It needs no texel.
+    /// The fragment needs no texel.
     known: Signal<'m>,
-    /// It is lit, if that is known.
+    /// The fragment is lit, if that is known.
     value: Signal<'m>,
 }
 

@@ -18,8 +18,8 @@ const DOC: &str = "SPAN cuts a line to the screen and queues what is left of it.
 
 Timing: a line is taken while none is held, or the queue has room for the one that is; a span is seen two cycles after its line
 was taken at the earliest. An empty line takes its turn like any other.
-Rules: the span is cut on the side where it ends. What lies off the screen on the side where it starts is stepped over
-by PIXEL, as the channels must be stepped there too.";
+Rules: the span is cut on the side where it ends. Columns off the screen on the side where it starts are
+stepped over by PIXEL, as the channels must be stepped there too.";
 
 /// The netlist of SPAN.
 ///
@@ -40,12 +40,12 @@ pub fn span(plan: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
         Fill::Textbook => ends_textbook(&m, width, &line),
     };
 
-    m.comment("The line held; at its right side it is cut only here. What is loaded while no line comes means nothing.");
+    m.comment("Line register. The right end is clipped here. Don't care while line_held is 0.");
     let fields = parts(&tokens::span(plan));
     let queue = fifo("edgewalk_span_fifo", plan.span_fifo, &fields, &["fresh"])?;
     let queue = m.instance("queue", &queue);
     let room = queue.output("in_ready");
-    let line_held = m.reg("line_held", 1).doc("a line stands before the queue").reset(0);
+    let line_held = m.reg("line_held", 1).doc("1: the line register holds a line").reset(0);
     let line_ready = (!line_held.q() | room).named("line_ready");
     let take = (line_valid & line_ready).named("take");
     let moves = (line_held.q() & room).named_doc("moves", "the line held is queued or dropped");
@@ -60,24 +60,27 @@ pub fn span(plan: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
         .doc("signed, the column behind the last, or one beyond the screen")
         .when(line_ready, ends.end)
         .q();
-    let beyond = m.reg("held_beyond", 1).doc("it ends with the screen").when(line_ready, ends.beyond).q();
+    let beyond =
+        m.reg("held_beyond", 1).doc("1: the span ends with the screen").when(line_ready, ends.beyond).q();
     let end = beyond.mux(width, end).named("end_cut");
     let [crossed, outside] = [
-        ("crossed", "no column lies between its edges", ends.crossed),
-        ("outside", "they end beside the screen", ends.outside),
+        ("crossed", "1: no column lies between the line's edges", ends.crossed),
+        ("outside", "1: both ends lie beside the screen", ends.outside),
     ]
     .map(|(name, doc, end)| m.reg(&format!("held_{name}"), 1).doc(doc).when(line_ready, end).q());
-    let empty = (crossed | outside).named_doc("empty", "no column of it is on the screen");
+    let empty = (crossed | outside).named_doc("empty", "1: the line has no column on the screen");
     let leftward = match plan.fill {
-        Fill::Exact => {
-            m.reg("held_leftward", 1).doc("drawn from its last column").when(line_ready, ends.leftward).q()
-        }
+        Fill::Exact => m
+            .reg("held_leftward", 1)
+            .doc("1: the span is drawn from its last column to its first")
+            .when(line_ready, ends.leftward)
+            .q(),
         Fill::Textbook => m.lit(1, 0),
     };
     let pixel = thin.map(|thin| HeldPixel {
         thin: moved(&m, line_ready, "held_thin", "a pixel of a line", thin.thin),
         flat: moved(&m, line_ready, "held_flat", "of a line with x and y exchanged", thin.flat),
-        y: moved(&m, line_ready, "held_y", "its line", line["y"]),
+        y: moved(&m, line_ready, "held_y", "line of the span", line["y"]),
     });
 
     m.comment("Flags of dropped lines wait for the next span.");
@@ -105,7 +108,7 @@ pub fn span(plan: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
     let span = Token::of_instance(queue, "out", fields);
     let span_valid = queue.output("out_valid");
 
-    m.comment("While a triangle's first span is queued, or may come of the line held, EDGE must keep its increments.");
+    m.comment("While a triangle's first span is queued, or the held line may become it, EDGE must keep its increments.");
     let fresh_in_queue = queue.output("any_fresh").named("fresh_in_queue");
     let fresh_queued = fresh_in_queue | (line_held.q() & fresh);
 
@@ -122,7 +125,7 @@ struct Ends<'m> {
     first: Signal<'m>,
     /// The column behind the last, but for the cut at the screen's right side.
     end: Signal<'m>,
-    /// That cut is made.
+    /// The right end is cut.
     beyond: Signal<'m>,
     /// No column lies between them.
     crossed: Signal<'m>,
@@ -140,7 +143,9 @@ fn ends_exact<'m>(m: &'m Module, width: Signal<'m>, line: &Token<'m>, thin: Opti
         beyond(cmin, width).named_doc("right_of_screen", "no column of the screen lies right of cmin");
     let left_of_screen =
         before(cmin).named_doc("left_of_screen", "no column of the screen lies left of cmin");
-    m.comment("Whether a column is left is asked of the edges themselves: no comparison waits for the cut.");
+    m.comment(
+        "The edges' own columns say whether the span is empty, so no comparison waits for the clipped end.",
+    );
     // The sign of a difference with room for it: nothing stands behind the carry.
     let wide = cmaj.width() + 1;
     let ordered = (cmaj.sext(wide) - cmin.sext(wide)).msb().named("ordered");
@@ -185,7 +190,7 @@ impl<'m> Thin<'m> {
     }
 }
 
-/// The same of the line held, with its line.
+/// A pixel of a thin line as the line register holds it, with its y.
 #[derive(Clone, Copy)]
 struct HeldPixel<'m> {
     thin: Signal<'m>,

@@ -79,7 +79,7 @@ impl<'m> Token<'m> {
         self.0.iter().find(|(part, _)| part.name == name).map(|(_, signal)| *signal)
     }
 
-    /// Its parts.
+    /// Parts of the token.
     pub fn parts(&self) -> Vec<Part> {
         self.0.iter().map(|(part, _)| part.clone()).collect()
     }
@@ -139,7 +139,7 @@ impl<'m> Registers<'m> {
         }
     }
 
-    /// Their values.
+    /// The registers' values as a token.
     pub fn token(&self) -> Token<'m> {
         Token(self.0.iter().map(|(part, reg)| (part.clone(), reg.q())).collect())
     }

@@ -76,7 +76,7 @@ pub struct Shadow {
 pub struct Pane {
     /// As those of [`Shadow::triangles`].
     pub corners: [[f64; 3]; 3],
-    /// Its transmission coefficient, (0, 1].
+    /// Transmission coefficient, (0, 1].
     pub kt: f64,
 }
 

@@ -2,6 +2,19 @@
 //!
 //! Every path ends in a [`Frame`]: a screen, a depth rule and a list of triangles in pixels. The golden
 //! picture and the machine both start there, so a frame is all that they share.
+//!
+//! ```
+//! use edgewalk_scene::{Scene, triangle_file};
+//! let sphere = Scene::builtin("sphere")?;
+//! assert!(sphere.mesh.faces().len() > 1000);
+//!
+//! let text = "size 16 12\nT 3 1.5 .25 1 0 0 0  13 4.75 .5 0 1 0 0  5.5 10 .5 0 0 1 0\n";
+//! let frame = triangle_file::parse("stdin", text.as_bytes())?;
+//! assert_eq!((frame.width, frame.height), (16, 12));
+//! # Ok::<(), edgewalk_scene::InputError>(())
+//! ```
+//! Next: crate `golden` draws a frame, crate `host` sends it to the machine. The file formats are in
+//! `docs/triangle_file.md` and `docs/scene_file.md`.
 
 mod error;
 mod text;

@@ -53,7 +53,7 @@ enum Lens {
     Pyramid(f64),
 }
 
-/// The same where one pyramid has to do.
+/// Like `Lens`, where one pyramid has to do.
 const WIDEST_ALONE: f64 = 7.0 * std::f64::consts::PI / 18.0;
 
 /// Where a point is in a map.

@@ -155,7 +155,7 @@ impl Mesh {
         &self.materials
     }
 
-    /// The same with what a file says of the faces beyond their corners: an entry a face, in their order;
+    /// Like `materials`, with what a file says of the faces beyond their corners: an entry a face, in their order;
     /// what is missing at the end is unsaid.
     pub fn with_face_data(mut self, mut face_data: Vec<FaceData>) -> Self {
         face_data.resize(self.faces.len(), FaceData::default());
@@ -163,7 +163,7 @@ impl Mesh {
         self
     }
 
-    /// The same with the textures its materials name by their places in the list; one beyond it is no
+    /// Like `with_face_data`, with the textures its materials name by their places in the list; one beyond it is no
     /// texture.
     pub fn with_textures(mut self, textures: Vec<Texture>) -> Self {
         self.textures = textures;

@@ -48,7 +48,7 @@ pub struct NormalRule {
 }
 
 impl Default for NormalRule {
-    /// Those of the file, else plain averages of faces within 1 radian.
+    /// Normals of the file, else plain averages of faces within 1 radian.
     fn default() -> Self {
         Self { given: true, weight: Weight::Plain, crease: Crease::Angle(1.0) }
     }

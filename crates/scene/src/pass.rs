@@ -7,7 +7,7 @@ use std::ops::Range;
 /// Primitives that are drawn by the same rules, one after the other.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Pass {
-    /// Their places in the list, [`Frame::primitives`].
+    /// Places of the pass in the list, [`Frame::primitives`].
     pub primitives: Range<usize>,
     /// The rules.
     pub state: State,

@@ -16,7 +16,7 @@ use crate::texture::Image;
 use glam::{DVec2, DVec3};
 use std::sync::Arc;
 
-/// How the cosines of a pixel are come by.
+/// Method of the cosines of a pixel.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum PixelMethod {
     /// N is brought to length 1 at each pixel (ch. 7.11).

@@ -5,7 +5,7 @@
 pub enum ShadeMode {
     /// Linear between the vertices (ch. 7.5).
     Gouraud,
-    /// That of the first vertex everywhere (ch. 7.4).
+    /// One colour, that of the first vertex (ch. 7.4).
     Flat,
 }
 

@@ -30,7 +30,7 @@ pub enum Texture {
     },
     /// From a file.
     Image(Arc<Image>),
-    /// The same with one colour in each texel.
+    /// Like `Image`, with one colour in each texel.
     Texels(Arc<Image>),
     /// A file that is named and is not there: white.
     Absent(String),
@@ -79,7 +79,7 @@ impl Texture {
         Image::new(&picture).map(|image| Self::Image(Arc::new(image))).ok_or_else(|| fault("empty".into()))
     }
 
-    /// The same with one colour in each texel, as hardware without a filter reads it; of a checker a square is a texel, of waves
+    /// Like `decode`, with one colour in each texel, as hardware without a filter reads it; of a checker a square is a texel, of waves
     /// there are [`WAVE_TEXELS`] a wave.
     #[must_use]
     pub fn nearest(self) -> Self {

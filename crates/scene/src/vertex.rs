@@ -30,7 +30,7 @@ pub struct Vertex {
 }
 
 impl Vertex {
-    /// This vertex with the colour and k_t of the first one, as flat mode has it.
+    /// The vertex with the colour and k_t of the first one, as flat mode has it.
     #[must_use]
     pub fn colored_as(self, first: &Self) -> Self {
         Self { r: first.r, g: first.g, b: first.b, kt: first.kt, ..self }

@@ -19,7 +19,7 @@ pub struct Design {
     pub(crate) memories: Vec<Memory>,
     /// The module that is measured.
     pub(crate) module: String,
-    /// Its units and their modules, in the order the data flows; none if it is a unit itself.
+    /// Units of the design and their modules, in the order the data flows; none if it is a unit itself.
     pub(crate) units: Vec<(String, String)>,
 }
 

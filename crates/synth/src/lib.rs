@@ -6,6 +6,18 @@
 //! ```
 //! Every run of a tool is a step, and its results are kept in a [`Cache`]. A number that a tool did not give is absent,
 //! with the reason beside it.
+//!
+//! ```
+//! use edgewalk_machine::Plan;
+//! use edgewalk_synth::{Part, TARGETS, Target};
+//! let part = Part::named("span", &Plan::default())?;
+//! assert_eq!(part.name(), "span");
+//! let target = Target::named("ice40-hx8k")?;
+//! assert_eq!(target.tools(), ["yosys", "nextpnr-ice40"]);
+//! assert!(TARGETS.len() > 1);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//! Next: [`Flow`] runs the tools; `docs/synthesis.md` has what they found.
 
 mod part;
 mod harness;

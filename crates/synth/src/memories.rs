@@ -53,7 +53,7 @@ pub struct Memory {
 /// So many blocks of a kind.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub struct Blocks {
-    /// Their kind.
+    /// Kind of the blocks.
     pub block: &'static str,
     /// How many.
     pub count: u64,

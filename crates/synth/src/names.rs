@@ -22,7 +22,7 @@ pub(crate) fn named_after(name: &str) -> Option<String> {
     (!name.is_empty()).then_some(name)
 }
 
-/// It is a cell of the design, not of the harness.
+/// Whether a cell belongs to the design, not to the harness.
 pub(crate) fn is_of_design(cell: &str) -> bool {
     // What starts with `$` is made by the tools, for the carry chains of the design: the harness has none.
     cell.starts_with('$') || cell.strip_prefix(DESIGN).is_some_and(|rest| rest.starts_with('.'))

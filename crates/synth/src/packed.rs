@@ -7,13 +7,13 @@ use std::collections::BTreeMap;
 /// Cells that logic is packed into.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Packed {
-    /// Their type: `ICESTORM_LC` (a LUT4, a flip-flop and a bit of carry), `TRELLIS_COMB` (a LUT4 or a bit of carry).
+    /// Type of the cells: `ICESTORM_LC` (a LUT4, a flip-flop and a bit of carry), `TRELLIS_COMB` (a LUT4 or a bit of carry).
     pub cell: String,
     /// Taken by the design.
     pub design: u64,
     /// Taken by the harness around it.
     pub harness: u64,
-    /// Those of the device.
+    /// Cells of the device.
     pub available: u64,
     /// Why it does not fit: what there is too little of; `None` if it does.
     pub lacks: Option<String>,

@@ -52,7 +52,7 @@ impl Part {
         self.0
     }
 
-    /// It has several units.
+    /// Whether the part has several units.
     #[must_use]
     pub fn has_units(self) -> bool {
         [WHOLE, ENGINE].contains(&self.0)

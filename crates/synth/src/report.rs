@@ -44,9 +44,9 @@ pub struct Outcome {
 /// Cells of a unit.
 #[derive(Debug, Serialize)]
 pub struct UnitCells {
-    /// Its name; `joints` is what joins the units.
+    /// Name of the unit; `joints` is what joins the units.
     pub unit: String,
-    /// Its cells, with those of the modules in it.
+    /// Cells of the unit, with those of the modules in it.
     #[serde(flatten)]
     pub cells: Cells,
 }

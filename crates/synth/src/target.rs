@@ -6,7 +6,7 @@ use edgewalk_machine::Unknown;
 /// A device.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Target {
-    /// Its name on the command line.
+    /// Name on the command line.
     pub name: &'static str,
     /// Device, package, speed.
     pub device: &'static str,
@@ -17,7 +17,7 @@ pub struct Target {
     pub(crate) options: &'static [&'static str],
     /// The cell that logic is packed into.
     pub(crate) packed: &'static str,
-    /// Its memory blocks.
+    /// Memory blocks of the device.
     pub blocks: &'static [Block],
 }
 

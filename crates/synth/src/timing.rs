@@ -17,7 +17,7 @@ pub struct CriticalPath {
     pub lut4: usize,
     /// Bits of carry it goes through.
     pub carry: usize,
-    /// Its wires in order, from the output of the first register to the last register, each change of name once.
+    /// Wires of the path in order, from the output of the first register to the last register, each change of name once.
     pub points: Vec<Point>,
 }
 

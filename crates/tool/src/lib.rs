@@ -1,6 +1,16 @@
 //! Outside programs: each a process with a time limit, and what installs it where it is missing.
 //!
 //! The only crate that starts programs for others; it knows nothing of what they do.
+//!
+//! ```
+//! use std::{process::Command, time::Duration};
+//! let printed = edgewalk_tool::run(Command::new("echo").arg("built"), Duration::from_secs(60))?;
+//! assert_eq!(printed.trim(), "built");
+//! let missing = edgewalk_tool::run(&mut Command::new("no-such-tool"), Duration::from_secs(60));
+//! assert!(missing.is_err());
+//! # Ok::<(), edgewalk_tool::Stop>(())
+//! ```
+//! Next: crates `vectors` and `synth` run simulators and synthesis with it.
 
 use std::io::{Read, Seek};
 use std::os::unix::process::CommandExt;
@@ -20,7 +30,7 @@ pub enum Stop {
         /// What installs it.
         install: String,
     },
-    /// It failed.
+    /// The tool failed.
     #[error("{tool} failed:\n{}", lines.join("\n"))]
     Broken {
         /// The program.
@@ -28,7 +38,7 @@ pub enum Stop {
         /// What it said first.
         lines: Vec<String>,
     },
-    /// It took too long and was ended.
+    /// The tool took too long and was ended.
     #[error("{tool} was ended after {} s", limit.as_secs())]
     TimeLimit {
         /// The program.

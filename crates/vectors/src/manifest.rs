@@ -31,8 +31,11 @@ pub struct Manifest {
     pub machine: MachineInfo,
     /// What is tested: `machine`, or a unit.
     pub unit: String,
-    /// Its Verilog module.
+    /// Verilog module of the unit.
     pub module: String,
+    /// The user's design that stands for it; none: ours, in `hdl`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub dut: Option<DutInfo>,
     /// How tokens move and what a cycle is.
     pub handshake: Handshake,
     /// Where numbers are rounded, and how.
@@ -59,7 +62,7 @@ pub struct Manifest {
     pub expected: u64,
     /// How often the model met each hazard and corner that it can meet in this unit of this machine.
     pub coverage: BTreeMap<String, u64>,
-    /// Those of them that it did not meet in this run.
+    /// Events that this run did not meet.
     pub not_covered: Vec<String>,
     /// Every other file of the directory.
     pub files: Vec<File>,
@@ -85,7 +88,7 @@ pub struct SuiteInfo {
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct CaseInfo {
-    /// Its name.
+    /// Name of the case.
     pub name: String,
     /// Number of its first triangle.
     pub first: u64,
@@ -101,6 +104,58 @@ pub struct MachineInfo {
     pub hash: String,
     /// Every key of a machine file and its value, as text.
     pub settings: BTreeMap<String, String>,
+}
+
+/// A user's design.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct DutInfo {
+    /// The top module.
+    pub top: String,
+    /// The design's files, absolute.
+    pub files: Vec<String>,
+    /// Folders for its include lines, absolute.
+    pub include: Vec<String>,
+    /// The clock port, of which the rising edge counts.
+    pub clock: String,
+    /// The reset.
+    pub reset: ResetInfo,
+    /// `order`: values and their order count; `cycle`: cycles and status ports too.
+    pub compare: String,
+    /// Parameters of the top module, their values in Verilog.
+    pub parameters: BTreeMap<String, String>,
+    /// Inputs that hold one value.
+    pub tie: BTreeMap<String, u64>,
+    /// For each port of the unit, valid and ready too, its place in a port of the design.
+    pub ports: BTreeMap<String, Place>,
+    /// Ports of the unit that the design has not, and that are not compared.
+    pub absent: Vec<String>,
+}
+
+/// The reset of a user's design.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ResetInfo {
+    /// The port.
+    pub port: String,
+    /// `high` or `low`.
+    pub active: String,
+    /// `synchronous` or `asynchronous`.
+    pub kind: String,
+    /// Clocks for which it is held.
+    pub cycles: u32,
+}
+
+/// Where a value stands in a port.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Place {
+    /// The port.
+    pub port: String,
+    /// The value's lowest bit in the port.
+    pub lsb: u32,
+    /// The value's bits in the port, with those of the extension.
+    pub width: u32,
 }
 
 /// How tokens move.
@@ -136,11 +191,11 @@ pub struct Stalls {
 pub struct SideInput {
     /// The port.
     pub port: String,
-    /// Its meaning.
+    /// Format of the input.
     pub format: String,
     /// The channel in whose tokens count: after the last of them has moved it is 0.
     pub while_tokens_of: String,
-    /// Its file among the patterns.
+    /// File of the input among the patterns.
     pub pattern: String,
     /// How the bench comes by its value.
     pub rule: String,
@@ -177,7 +232,7 @@ pub struct Memory {
     pub read: String,
     /// The channel of its words, in the order of the reads.
     pub data: String,
-    /// Who writes it; null if that is not of this unit.
+    /// The link that writes it; null if another unit's does.
     pub write: Option<MemoryWrite>,
     /// Cycles from a read to its data, at the least.
     pub latency: u64,
@@ -215,7 +270,7 @@ pub enum Compare {
     Exact,
     /// Every bit, and the cycle.
     Cycle,
-    /// It is driven, not compared.
+    /// The port is driven, not compared.
     Driven,
 }
 
@@ -248,7 +303,7 @@ pub struct Channel {
     pub moved: Option<String>,
     /// Memory file of the triangles that they belong to, in steps; null where that is not known.
     pub triangles: Option<String>,
-    /// Table for eyes; null where none is written.
+    /// Table for people; null where none is written.
     pub table: Option<String>,
 }
 
@@ -274,7 +329,7 @@ pub struct Field {
 pub struct Status {
     /// The ports, the most significant first.
     pub fields: Vec<Field>,
-    /// Those of them that a design compared without its cycles need not have.
+    /// Ports that a design compared without its cycles need not have.
     pub optional: Vec<String>,
     /// For a port that means something only while another is 1 that other port: it counts as 0 while not.
     pub during: BTreeMap<String, String>,
@@ -284,7 +339,7 @@ pub struct Status {
     pub tokens: String,
     /// Memory file of the cycles from which on they hold, in steps.
     pub moved: String,
-    /// Table for eyes; null where none is written.
+    /// Table for people; null where none is written.
     pub table: Option<String>,
 }
 

@@ -21,7 +21,7 @@ pub enum ReadError {
     /// A file cannot be had.
     #[error("{file}: {source}")]
     Io {
-        /// Its name.
+        /// Name of the file.
         file: String,
         /// What the system says.
         source: std::io::Error,
@@ -45,7 +45,7 @@ pub enum ReadError {
         manifest::VERSION
     )]
     Version {
-        /// Its version.
+        /// Version of the file.
         found: u64,
     },
     /// The module is no name.
@@ -57,7 +57,7 @@ pub enum ReadError {
     /// A file is not the one that was written.
     #[error("{file}: {found}, the manifest says {wanted}")]
     Changed {
-        /// Its name.
+        /// Name of the file.
         file: String,
         /// Length or hash.
         found: String,
@@ -67,7 +67,7 @@ pub enum ReadError {
     /// A memory file does not hold what the manifest says.
     #[error("{file} line {line}: {reason}")]
     Token {
-        /// Its name.
+        /// Name of the file.
         file: String,
         /// From 1.
         line: usize,
@@ -100,8 +100,11 @@ pub fn read(mut load: impl FnMut(&str) -> std::io::Result<Vec<u8>>) -> Result<Ve
     let manifest: Manifest =
         serde_json::from_slice(&json).map_err(|source| ReadError::Manifest { source })?;
     // The name goes into commands of tools.
-    if !manifest.module.chars().all(|c| c.is_ascii_alphanumeric() || c == '_') {
-        return Err(ReadError::Module { found: manifest.module });
+    let plain = |name: &str| name.chars().all(|c| c.is_ascii_alphanumeric() || "_$".contains(c));
+    let top = manifest.dut.as_ref().map(|dut| dut.top.as_str());
+    if let Some(name) = [Some(manifest.module.as_str()), top].into_iter().flatten().find(|name| !plain(name))
+    {
+        return Err(ReadError::Module { found: name.to_owned() });
     }
     for wanted in &manifest.files {
         let found = file(&wanted.name, &get(&wanted.name)?);

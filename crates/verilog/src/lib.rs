@@ -11,6 +11,19 @@
 //! 2. A signed operation beside unsigned ones is enclosed: `$unsigned($signed(a) >>> 3)`.
 //!
 //! The text passes `verilator -Wall` without waivers: what is not used on purpose ends in a wire `unused`.
+//!
+//! ```
+//! use edgewalk_netlist::Module;
+//! let m = Module::new("counter", "Counts clocks.");
+//! let count = m.reg("count", 8).reset(0);
+//! count.set(count.q() + 1);
+//! m.output("q", count.q());
+//! let files = edgewalk_verilog::print(&m.finish()?);
+//! assert_eq!(files[0].0, "counter.v");
+//! assert!(files[0].1.contains("count <= "));
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//! Next: crate `rtl` builds the machine's netlists; `edgewalk emit` writes their text, which stands in `hdl/`.
 
 mod expression;
 mod groups;

@@ -1,4 +1,4 @@
-//! Who uses what: names that are taken, how often an operator is used, which bits of a signal the text mentions.
+//! Uses of names and operators: names that are taken, how often an operator is used, which bits of a signal the text mentions.
 
 use std::collections::{BTreeMap, BTreeSet};
 

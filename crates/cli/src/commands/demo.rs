@@ -60,8 +60,13 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
     }
     let modules = design::write_design(&machine, &out, "hdl/")?;
     let directed = suites::directed(&machine)?;
-    let set =
-        suites::Set { suites: &directed, units: &Unit::all(&machine), stalls: None, tables: Tables::Written };
+    let set = suites::Set {
+        suites: &directed,
+        units: &Unit::all(&machine),
+        stalls: None,
+        tables: Tables::Written,
+        own: None,
+    };
     let written = set.write(&machine, &out, "vectors/", talk)?;
     out.write("report.json", document("report", &report)?)?;
     out.write("report.txt", report.text())?;

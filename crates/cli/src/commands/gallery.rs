@@ -8,6 +8,7 @@ use crate::{Talk, picture};
 use anyhow::{Result, anyhow};
 use edgewalk_gallery::{EXHIBITS, Exhibit, Image, Maker, View};
 use edgewalk_machine::Unknown;
+use edgewalk_replay::lesson::markdown::wrapped;
 use rayon::prelude::*;
 use serde_json::json;
 use std::fmt::Write as _;
@@ -94,12 +95,17 @@ fn own(out: &Path) -> Vec<String> {
 
 /// The page, in Markdown.
 fn page(exhibits: &[Exhibit]) -> String {
-    let mut page = "# Gallery\n\nWhat the shading systems of the sources do well and badly, measured. Written by `edgewalk gallery`; scenes \
+    let mut page = "# Gallery\n\nWhat the shading systems of the sources do well and badly, measured.\nWritten by `edgewalk gallery`; scenes \
                     are in [docs/scenes](../scenes).\n"
         .to_owned();
     for exhibit in exhibits {
         // Writing to a string cannot fail.
-        _ = write!(page, "\n## {}\n\n{}\n\n| measured | |\n|---|---|\n", exhibit.title, exhibit.cause);
+        _ = write!(
+            page,
+            "\n## {}\n\n{}\n\n| measured | |\n|---|---|\n",
+            exhibit.title,
+            wrapped(&exhibit.cause)
+        );
         for (quantity, value) in &exhibit.figures {
             _ = writeln!(page, "| {quantity} | {value} |");
         }

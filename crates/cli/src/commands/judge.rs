@@ -1,14 +1,13 @@
 //! `edgewalk judge`: the picture of another rasterizer beside golden's, or beside a machine's.
 
 mod arrays;
-mod junit;
 
 use crate::document::document;
 use crate::input::{Source, to_port};
 use crate::machine_args::MachineArgs;
 use crate::staging::Staging;
 use crate::verdict::Verdict;
-use crate::{Talk, picture};
+use crate::{Talk, junit, picture};
 use anyhow::{Result, ensure};
 use edgewalk_host::draw;
 use edgewalk_judge::outside::{self, Asked, Cause, Judgement, Rule, Tolerance};
@@ -164,7 +163,7 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
     };
     if let Some(out) = out {
         out.write("judge.json", document("judge", &report)?)?;
-        out.write("judge.xml", junit::document(&report.input, &report.judgement))?;
+        out.write("judge.xml", report.junit())?;
         picture::write(&out, "differences.png", size.0, size.1, |pixel| color(report.judgement.map[pixel]))?;
         out.publish(&FILES)?;
     }
@@ -213,6 +212,17 @@ fn lsb(text: &str) -> Result<f64, String> {
 }
 
 impl Report {
+    /// A test case for each cause that is wrong.
+    fn junit(&self) -> String {
+        let cases = self.judgement.causes.iter().filter(|count| count.wrong).map(|count| junit::Case {
+            name: count.cause.text().to_owned(),
+            failure: (count.pixels > 0)
+                .then(|| (format!("{} pixels", count.pixels), self.judgement.lines_of(count.cause))),
+        });
+        let cases: Vec<junit::Case> = cases.collect();
+        junit::document(&format!("edgewalk judge {}", self.input), "edgewalk.judge", &cases)
+    }
+
     fn text(&self) -> String {
         let Report { input, against, rule, machine, pass, .. } = self;
         let verdict = if *pass { "pass" } else { "fail" };

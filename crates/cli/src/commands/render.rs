@@ -75,7 +75,9 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
     let wireframe = args.source.shading == Shading::Wireframe;
     let lines_only = args.engine == Engine::Golden && wireframe;
     if args.hidden_lines && !wireframe {
-        return Err(anyhow!("--hidden-lines: permitted with --shading wireframe"));
+        return Err(anyhow!(
+            "--hidden-lines: permitted with --shading wireframe only; leave it out, or add --shading wireframe"
+        ));
     }
     if matches!(args.engine, Engine::Golden | Engine::Scanline) && args.stalls != Waits::Never {
         return Err(anyhow!(
@@ -135,7 +137,7 @@ fn shaded(args: &Args, machine: &Plan, talk: Talk) -> Result<Verdict> {
     let spinner = spinner("shading", talk.quiet);
     let (scene, surface) = args.source.surface(machine)?;
     if args.shadows != Shadows::Off && args.source.shading == Shading::FastPhong {
-        return Err(anyhow!("--shadows: fast Phong shading has none; use --shading phong"));
+        return Err(anyhow!("--shadows: not permitted with --shading fast-phong; use --shading phong"));
     }
     let fast = match args.source.shading {
         Shading::FastPhong => Some(args.fast_phong.draw(&scene, &surface, machine)?),

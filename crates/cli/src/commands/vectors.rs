@@ -1,13 +1,14 @@
 //! `edgewalk vectors`: stimuli, expected results and self-checking test benches.
 
-use crate::Talk;
 use crate::document::document;
 use crate::input::{Source, to_port};
 use crate::machine_args::MachineArgs;
 use crate::staging::Staging;
-use crate::suites::{Set, of_input, own, stalls};
+use crate::suites::{self, Set, of_input, only, stalls};
 use crate::verdict::Verdict;
+use crate::{Talk, own};
 use anyhow::{Result, anyhow};
+use edgewalk_vectors::dut::Wiring;
 use edgewalk_vectors::{SUITES, StallKind, Suite, Tables, Unit};
 use serde_json::json;
 use std::path::PathBuf;
@@ -16,14 +17,18 @@ use std::path::PathBuf;
 ///
 /// With an input, its triangles are the suite. `make HDL=mine.v` in a directory replays the vectors into another
 /// design with the same ports. `make CHECK_CYCLES=0` is for a design with other timing: order and values count,
-/// cycles and status do not.
+/// cycles and status do not. With --dut the benches are wired to a design with other port names, as its file says
+/// (docs/own_rtl.md); ports and widths are checked first.
 #[derive(clap::Args)]
 #[command(after_help = "Examples:
   edgewalk vectors --out out/vectors
   edgewalk vectors --suite hazards --unit depth --stalls late --out out/v
   edgewalk vectors triangles.tri --unit pixel --no-csv --out out/mine
   make -C out/v/hazards_depth icarus verilator lint
-  make -C out/mine/triangles_pixel icarus HDL=mine.v CHECK_CYCLES=0")]
+  make -C out/mine/triangles_pixel icarus HDL=mine.v CHECK_CYCLES=0
+  edgewalk vectors --dut dut.toml --suite hazards --suite corners --out out/own
+  make -C out/own/hazards_pixel icarus verilator lint
+  edgewalk vectors --suite hazards --only knee_line --unit pixel --out out/one")]
 pub struct Args {
     /// A built-in scene, a scene file (.toml), a mesh (.obj, .gltf, .glb) or a triangle file (.tri) whose triangles are a suite
     #[arg(value_name = "SCENE|MESH|FILE.tri")]
@@ -43,6 +48,12 @@ pub struct Args {
     /// blend; all units of the suite if left out
     #[arg(long, value_name = "NAME", value_parser = unit)]
     unit: Vec<Unit>,
+    /// Cases: of every suite those of these names; all of them if left out
+    #[arg(long, value_name = "CASE")]
+    only: Vec<String>,
+    /// Your own design in place of ours, described by this file (docs/own_rtl.md)
+    #[arg(long, value_name = "FILE.toml", conflicts_with = "unit")]
+    dut: Option<PathBuf>,
     /// Stalls by the bench: none, mixed, late; the suite's own if left out
     #[arg(long, value_parser = stalls)]
     stalls: Option<StallKind>,
@@ -85,16 +96,29 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
         Suite::named(&machine, name, args.seed, args.count).map_err(|e| anyhow!("--suite {name}: {e}"))
     });
     let suites = input.into_iter().map(Ok).chain(named).collect::<Result<Vec<_>>>()?;
-    let units = if args.unit.is_empty() { Unit::all(&machine) } else { args.unit.clone() };
+    let wiring = args.dut.as_deref().map(|file| own::design(file, &machine)).transpose()?;
+    let suites = only(suites, &args.only)?;
+    let (suites, units) = match &wiring {
+        // Of the suites that are not named those that say something about the unit.
+        Some(Wiring { dut, .. }) => {
+            let all = args.suite.is_empty();
+            let suites: Vec<Suite> =
+                suites.into_iter().filter(|suite| !all || suite.is_for(dut.unit)).collect();
+            (suites, vec![dut.unit])
+        }
+        None if args.unit.is_empty() => (suites, Unit::all(&machine)),
+        None => (suites, args.unit.clone()),
+    };
     let out = Staging::new(&args.out)?;
     let set = Set {
         suites: &suites,
         units: &units,
         stalls: args.stalls,
         tables: if args.no_csv { Tables::LeftOut } else { Tables::Written },
+        own: wiring.as_ref(),
     };
     let written = set.write(&machine, &out, "", talk)?;
-    out.publish(&own(&args.out, "", &written))?;
+    out.publish(&suites::own(&args.out, "", &written))?;
     talk.say(
         || document("vector-folders", json!({ "hash": machine.hash(), "directories": written })),
         || format!("machine {} -> {}\n    {}", machine.hash(), args.out.display(), written.join("\n    ")),

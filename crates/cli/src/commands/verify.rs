@@ -1,26 +1,28 @@
 //! `edgewalk verify`: model against netlist in every port and cycle, then the emitted Verilog in both simulators.
 
 mod difference;
+mod own;
 
 use crate::document::document;
 use crate::input::{Source, to_port};
 use crate::machine_args::MachineArgs;
 use crate::scratch::Scratch;
 use crate::staging::Staging;
-use crate::suites::{directed, functions, of_input, stalls, warn_of_gaps};
+use crate::suites::{directed, functions, of_input, only, stalls, warn_of_gaps};
 use crate::verdict::Verdict;
-use crate::{Talk, jobs, progress};
+use crate::{Talk, jobs, junit, progress};
 use anyhow::{Context, Result, anyhow};
 use edgewalk_lockstep::LockstepError;
-use edgewalk_machine::Plan;
+use edgewalk_machine::{Plan, Unknown};
 use edgewalk_netlist::Netlist;
+use edgewalk_vectors::dut::Wiring;
 use edgewalk_vectors::{
-    Outcome, Runs, Simulator, StallKind, Suite, Tables, Trace, Unit, design, directory, reached, simulate,
+    Files, Outcome, Runs, Simulator, StallKind, Suite, Tables, Trace, Unit, design, directory, reached,
+    simulate,
 };
 use serde::Serialize;
 use serde_json::json;
 use std::fmt::Write as _;
-use std::iter;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
@@ -29,11 +31,16 @@ use std::time::Duration;
 ///
 /// The directed suites go through the machine and each of its units. The suites of the depth functions go through
 /// the machine and DEPTH. The input's triangles go through the machine.
+///
+/// With --dut your own design is verified in place of ours: it replays the suites of its unit, and the input's triangles,
+/// in the simulators (docs/own_rtl.md).
 #[derive(clap::Args)]
 #[command(after_help = "Examples:
   edgewalk verify sphere
   edgewalk verify triangles.tri --set interpolator.adders=1 --set memory.hazard=interlock
-  edgewalk verify torus --stalls late --triangles 1000 --no-simulators --json")]
+  edgewalk verify torus --stalls late --triangles 1000 --no-simulators --json
+  edgewalk verify --dut dut.toml --junit out/verify.xml
+  edgewalk verify --dut dut.toml --simulator icarus --only knee_line")]
 pub struct Args {
     #[command(flatten)]
     source: Source,
@@ -49,9 +56,27 @@ pub struct Args {
     /// Compare model and netlist only
     #[arg(long)]
     no_simulators: bool,
+    /// Your own design in place of ours, described by this file (docs/own_rtl.md)
+    #[arg(long, value_name = "FILE.toml", conflicts_with = "no_simulators")]
+    dut: Option<PathBuf>,
+    /// Simulators for --dut: icarus, verilator [default: both; Verilator takes all directed suites as one]
+    #[arg(long, value_name = "NAME", requires = "dut", value_parser = simulator)]
+    simulator: Vec<Simulator>,
+    /// Cases: of every suite those of these names; all of them if left out
+    #[arg(long, value_name = "CASE")]
+    only: Vec<String>,
+    /// Write the results as JUnit to this file too
+    #[arg(long, value_name = "FILE.xml")]
+    junit: Option<PathBuf>,
     /// Folder of replay pages: one for each suite in which model and netlist differ, opened at the first difference
     #[arg(long, value_name = "DIR", default_value = "out/verify")]
     out: PathBuf,
+}
+
+fn simulator(name: &str) -> Result<Simulator, String> {
+    let names = Simulator::ALL.map(Simulator::name);
+    let found = Simulator::ALL.into_iter().find(|simulator| simulator.name() == name);
+    found.ok_or_else(|| Unknown::new("simulator", name, names).to_string())
 }
 
 const ICARUS: [Simulator; 1] = [Simulator::Icarus];
@@ -78,50 +103,68 @@ impl Check {
 /// Runs the command.
 pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
     let machine = args.source.machine(machine)?;
+    // Whatever is wrong with the design is said first.
+    let wiring = args.dut.as_deref().map(|file| crate::own::design(file, &machine)).transpose()?;
     let frame = args.source.frame(&machine)?;
     let port = to_port(&frame, &machine)?;
     let input = Suite {
         name: "input".to_owned(),
         ..of_input(&args.source.input, &machine, &port, Some(args.triangles))?
     };
-    let whole = (vec![Unit::MACHINE], input);
-    let directed = directed(&machine)?.into_iter().map(|suite| (Unit::all(&machine), suite));
-    let functions = functions(&machine)?
-        .into_iter()
-        .map(|suite| (Unit::all(&machine).into_iter().filter(|unit| suite.is_for(*unit)).collect(), suite));
-    // A build with Verilator takes seconds: the whole machine under input and directed suites is enough for it.
-    let in_both = 1 + directed.len();
-    let suites: Vec<(Vec<Unit>, Suite)> = iter::once(whole).chain(directed).chain(functions).collect();
-    let runs: Vec<Runs> = suites.iter().map(|(_, suite)| Runs::new(&machine, suite, suite.state)).collect();
-    let work: Vec<(usize, Unit)> = suites
-        .iter()
-        .enumerate()
-        .flat_map(|(i, (units, _))| units.iter().map(move |unit| (i, *unit)))
-        .collect();
+    let suites = [vec![input], directed(&machine)?, functions(&machine)?].concat();
+    let suites = only(suites, &args.only)?;
+    let checks = match &wiring {
+        Some(wiring) => own::checks(args, &machine, wiring, suites, talk)?,
+        None => ours(args, &machine, suites, talk)?,
+    };
+    if let Some(file) = &args.junit {
+        write_junit(file, &checks)?;
+    }
+    print(&machine, wiring.as_ref(), &checks, talk)?;
+    Ok(checks.iter().fold(Verdict::Pass, |all, c| all.and(c.verdict())))
+}
+
+/// The names of the suites that Verilator runs too: a build with it takes seconds, and the whole machine under input and
+/// directed suites is enough for it.
+const IN_BOTH: [&str; 3] = ["input", "hazards", "corners"];
+
+/// Our own machine, and each of its units.
+fn ours(args: &Args, machine: &Plan, suites: Vec<Suite>, talk: Talk) -> Result<Vec<Check>> {
+    let runs: Vec<Runs> = suites.iter().map(|suite| Runs::new(machine, suite, suite.state)).collect();
+    let units = |suite: &Suite| match suite.name.as_str() {
+        "input" => vec![Unit::MACHINE],
+        _ => Unit::all(machine).into_iter().filter(|unit| suite.is_for(*unit)).collect(),
+    };
+    let of = |(i, suite)| units(suite).into_iter().map(move |unit| (i, unit));
+    let work: Vec<(usize, Unit)> = suites.iter().enumerate().flat_map(of).collect();
     let limit = Duration::from_secs(args.limit);
     let bar = progress::bar(work.len() as u64, "suites and units", talk.quiet);
     let done = jobs::all(&work, &bar, |(place, unit)| {
-        let suite = &suites[*place].1;
+        let suite = &suites[*place];
         let trace = runs[*place].capture(*unit, args.stalls.unwrap_or(suite.stalls));
-        let simulators =
-            if *unit == Unit::MACHINE && *place < in_both { &Simulator::ALL[..] } else { &ICARUS };
-        let netlist = edgewalk_lockstep::netlist(&machine, *unit)
+        let simulators = if *unit == Unit::MACHINE && IN_BOTH.contains(&suite.name.as_str()) {
+            &Simulator::ALL[..]
+        } else {
+            &ICARUS
+        };
+        let netlist = edgewalk_lockstep::netlist(machine, *unit)
             .map_err(|e| anyhow!("the netlist cannot be built: {e}"))?;
         let mut checks = vec![against_netlist(&netlist, suite, &trace, &args.out)?];
         if !args.no_simulators {
-            let folder = write(&machine, suite, *unit, &trace)?;
+            let verilog =
+                design::verilog(machine, *unit).map_err(|e| anyhow!("the netlist cannot be built: {e}"))?;
+            let folder = write(directory(suite, &trace, &verilog, Tables::LeftOut))?;
             for simulator in simulators {
-                checks.push(in_simulator(*simulator, folder.path(), limit, suite, &trace)?);
+                let expected = trace.expected();
+                checks.push(in_simulator(*simulator, folder.path(), limit, suite, *unit, expected)?);
             }
         }
         Ok((checks, (*unit, reached(&trace))))
     })?;
     bar.finish_and_clear();
     let (checks, runs): (Vec<Vec<Check>>, Vec<_>) = done.into_iter().unzip();
-    let checks = checks.concat();
     warn_of_gaps(&runs, talk);
-    print(&machine, &checks, talk)?;
-    Ok(checks.iter().fold(Verdict::Pass, |all, c| all.and(c.verdict())))
+    Ok(checks.concat())
 }
 
 fn against_netlist(netlist: &Netlist, suite: &Suite, trace: &Trace, out: &Path) -> Result<Check> {
@@ -146,10 +189,9 @@ fn against_netlist(netlist: &Netlist, suite: &Suite, trace: &Trace, out: &Path) 
     Ok(Check { suite, unit, against: "netlist", checked, expected, difference })
 }
 
-fn write(machine: &Plan, suite: &Suite, unit: Unit, trace: &Trace) -> Result<Scratch> {
+fn write(files: Files) -> Result<Scratch> {
     let folder = Scratch::temporary()?;
-    let verilog = design::verilog(machine, unit).map_err(|e| anyhow!("the netlist cannot be built: {e}"))?;
-    for (name, contents) in directory(suite, trace, &verilog, Tables::LeftOut) {
+    for (name, contents) in files {
         let path = folder.path().join(name);
         if let Some(parent) = path.parent() {
             std::fs::create_dir_all(parent)?;
@@ -164,9 +206,9 @@ fn in_simulator(
     folder: &Path,
     limit: Duration,
     suite: &Suite,
-    trace: &Trace,
+    unit: Unit,
+    expected: u64,
 ) -> Result<Check> {
-    let (unit, expected) = (trace.interface.unit, trace.expected());
     let work = Scratch::temporary()?;
     let outcome = simulate(simulator, folder, work.path(), limit)
         .with_context(|| format!("{} {} (--no-simulators goes without)", suite.name, unit.name()))?;
@@ -179,10 +221,47 @@ fn in_simulator(
     Ok(Check { suite, unit: unit.name(), against: simulator.name(), checked, expected, difference })
 }
 
-fn print(machine: &Plan, checks: &[Check], talk: Talk) -> Result<()> {
-    let json = || document("verify", json!({ "machine": machine.hash(), "checks": checks }));
+fn write_junit(file: &Path, checks: &[Check]) -> Result<()> {
+    let case = |check: &Check| junit::Case {
+        name: format!("{} {} {}", check.suite, check.unit, check.against),
+        failure: (check.verdict() != Verdict::Pass).then(|| {
+            let line = format!("checked {} / {}", check.checked, check.expected);
+            (line, check.difference.clone().unwrap_or_default())
+        }),
+    };
+    let cases: Vec<junit::Case> = checks.iter().map(case).collect();
+    let folder = file.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    let name = file.file_name().ok_or_else(|| anyhow!("--junit {}: is no file", file.display()))?;
+    let name = name.to_string_lossy().into_owned();
+    let out = Staging::new(folder)?;
+    out.write(&name, junit::document("edgewalk verify", "edgewalk.verify", &cases))?;
+    out.publish(&[name])
+}
+
+fn print(machine: &Plan, own: Option<&Wiring>, checks: &[Check], talk: Talk) -> Result<()> {
+    let not_compared = own.map(Wiring::not_compared);
+    let json = || {
+        let mut report = json!({ "machine": machine.hash(), "checks": checks });
+        if let Some(wiring) = own {
+            report["dut"] =
+                json!({ "file": wiring.dut.file, "top": wiring.dut.top, "not_compared": not_compared });
+        }
+        document("verify", report)
+    };
     let text = || {
         let mut text = format!("machine {}\n", machine.hash());
+        if let Some(Wiring { dut, .. }) = own {
+            text = format!(
+                "{} of {} beside {} of machine {}\n",
+                dut.top,
+                dut.file,
+                dut.unit.name(),
+                machine.hash()
+            );
+        }
+        if let Some(names) = not_compared.as_ref().filter(|names| !names.is_empty()) {
+            _ = writeln!(text, "not compared: {}", names.join(", "));
+        }
         for c in checks {
             let word = if c.verdict() == Verdict::Pass { "pass" } else { "FAIL" };
             // Writing to a string cannot fail.

@@ -101,6 +101,16 @@ impl Recording {
         Recording { registers, tokens, before, json }
     }
 
+    /// The cycles, from 0.
+    pub fn cycles(&self) -> std::ops::Range<u64> {
+        0..number(&self.json["cycles"])
+    }
+
+    /// A field of a token of this table, both counted from 0.
+    pub fn token(&self, table: usize, field: usize, token: u64) -> u64 {
+        self.tokens[table][field][token as usize]
+    }
+
     /// A register in a cycle.
     pub fn value(&self, register: &Value, cycle: u64) -> u64 {
         let (at, values) = &self.registers[number(register) as usize];
@@ -123,7 +133,7 @@ impl Recording {
         let table = number(&shape["table"]) as usize;
         let address = &self.json["tokens"][table]["fields"][0]["shape"];
         let mut written = 0;
-        for cycle in 0..number(&self.json["cycles"]) {
+        for cycle in self.cycles() {
             if flags.iter().any(|flag| flag.is_u64() && self.value(flag, cycle) == 0) {
                 continue;
             }

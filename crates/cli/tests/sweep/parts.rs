@@ -59,7 +59,7 @@ fn parts_in_any_order_and_twice_merge_to_the_same_rows() {
     assert!(code == Some(2) && error.contains("0 to 3"), "{error}");
     let mut lost = edgewalk(at, &["sweep", "run", "--out", "s"]);
     let output = lost.env_remove("SLURM_ARRAY_TASK_ID").env_remove("HQ_TASK_ID").output().unwrap();
-    assert!(String::from_utf8_lossy(&output.stderr).contains("which part?"));
+    assert!(String::from_utf8_lossy(&output.stderr).contains("--chunk: no part is given; add --chunk N"));
     let (code, error) = run(at, &["sweep", "run", "--out", "whole", "--chunk", "0"]);
     assert!(code == Some(2) && error.contains("no parts"), "{error}");
 }

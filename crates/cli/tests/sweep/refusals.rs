@@ -12,7 +12,7 @@ const REFUSED: [(&[&str], &[&str]); 24] = [
     (&["sphere", "--vary", "interpolator.adders="], &["no value", "1 to 8"]),
     (&["sphere", "--vary", "formats.z_fraction=14..6"], &["empty range", "14 is above 6"]),
     (&["sphere", "--vary", "formats.z_fraction=6..40"], &["permitted from 0 to 24"]),
-    (&["sphere", "--vary", "formats.z_fraction=6..14..0"], &["step of 0"]),
+    (&["sphere", "--vary", "formats.z_fraction=6..14..0"], &["the step is 0; permitted: 1 or more"]),
     (&["sphere", "--vary", "formats.z_fraction=six..14"], &["six is no whole number"]),
     (&["sphere", "--vary", "memory.hazard=drain..forward"], &["takes words", "interlock"]),
     (&["sphere", "--vary", "setup.lanes=1,3"], &["setup.lanes = 3 is not permitted", "nearest: 2"]),
@@ -36,7 +36,7 @@ const REFUSED: [(&[&str], &[&str]); 24] = [
     ),
     (
         &["sphere", "--vary", "setup.lanes=1", "--objective", "cycles", "--objective", "cycles"],
-        &["cycles", "comes twice"],
+        &["cycles", "is given twice; give it once"],
     ),
     (&["sphere", "--vary", "setup.lanes=1", "--objective", "cylces"], &["cylces", "nearest: cycles"]),
     (&["sphere", "--vary", "setup.lanes=1", "--objective", "lut4"], &["lut4", "--synth"]),
@@ -49,7 +49,7 @@ const REFUSED: [(&[&str], &[&str]); 24] = [
     (&["sphere", "--vary", "setup.lanes=1", "--stalls", "drm"], &["drm", "nearest: dram"]),
     (&["sphere", "--vary", "setup.lanes=1", "--stalls", "fixed:rd=x"], &["rd = x", "0 to 1048576"]),
     (&["sphere", "--vary", "setup.lanes=1", "--bound", "0.4"], &["--bound 0.4", "above 0.5"]),
-    (&["sphere", "sphere", "--vary", "setup.lanes=1"], &["sphere", "comes twice"]),
+    (&["sphere", "sphere", "--vary", "setup.lanes=1"], &["sphere", "is given twice; give it once"]),
     (&["spehre", "--vary", "setup.lanes=1"], &["spehre", "sphere"]),
     (&["sphere", "--vary", "setup.lanes=1", "--shading", "wireframe"], &["wireframe", "gouraud"]),
 ];

@@ -9,7 +9,7 @@ use edgewalk_machine::key::{Domain, Key};
 pub struct Axis {
     /// The key.
     pub key: &'static Key,
-    /// Its values, as the key's `set` takes them, in the order they were given.
+    /// Values of the axis, as the key's `set` takes them, in the order they were given.
     pub values: Vec<u32>,
 }
 
@@ -69,7 +69,7 @@ fn range(key: &Key, list: &str) -> Result<Vec<String>, String> {
         _ => return Err("write lo..hi or lo..hi..step".to_owned()),
     };
     if step == 0 {
-        return Err("a step of 0 goes nowhere".to_owned());
+        return Err("the step is 0; permitted: 1 or more".to_owned());
     }
     if low > high {
         return Err(format!("empty range: {low} is above {high}"));

@@ -43,7 +43,7 @@ fn of_point(sweep: &Sweep, point: &Point, row: &Value) -> Result<(), String> {
     }
 }
 
-/// That the figures of a report are possible, and agree among themselves.
+/// Checks that the figures of a report are possible, and agree among themselves.
 fn figures(point: &Point, row: &Value) -> Result<(), String> {
     let report = &row["report"];
     for (name, own) in [("input", &row["input"]), ("machine", &row["machine"])] {
@@ -98,7 +98,7 @@ fn figures(point: &Point, row: &Value) -> Result<(), String> {
     Ok(())
 }
 
-/// That figures which follow from others do; the last digit of a number may change when it is written and read.
+/// Checks figures that follow from others; the last digit of a number may change when it is written and read.
 fn same(found: &Value, own: &Value, name: &str) -> Result<(), String> {
     let near = match (found.as_f64(), own.as_f64()) {
         (Some(a), Some(b)) => (a - b).abs() <= 1e-12 * b.abs(),

@@ -41,7 +41,7 @@ pub struct Definition {
 impl Definition {
     /// Name of the format.
     pub const FORMAT: &str = "edgewalk-sweep-definition";
-    /// Its version.
+    /// Version of the definition's format.
     pub const FORMAT_VERSION: [u32; 2] = [1, 0];
 }
 

@@ -48,7 +48,10 @@ impl Sweep {
         let axes = definition.vary.iter().map(|text| Axis::parse(text)).collect::<Result<Vec<_>>>()?;
         for (place, axis) in axes.iter().enumerate() {
             if axes[..place].iter().any(|before| before.key.name == axis.key.name) {
-                return Err(anyhow!("--vary {}: the key is varied twice", axis.key.name));
+                return Err(anyhow!(
+                    "--vary {}: the key is varied twice; put its values into one --vary",
+                    axis.key.name
+                ));
             }
         }
         let memories = Memory::list(&definition.stalls)?;
@@ -221,7 +224,7 @@ fn inputs(names: &[String], shadings: &[&'static str]) -> Result<Vec<Subject>> {
     let mut all: Vec<Subject> = Vec::new();
     for name in names {
         if all.iter().any(|before| before.name == *name) {
-            return Err(anyhow!("{name}: the input comes twice"));
+            return Err(anyhow!("{name}: the input is given twice; give it once"));
         }
         all.push(Subject::open(name, shadings)?);
     }

@@ -25,7 +25,7 @@ impl Memory {
         for name in names {
             let waits: Waits = name.parse().map_err(|e| anyhow!("--stalls {name}: {e}"))?;
             if all.iter().any(|memory| memory.waits == waits) {
-                return Err(anyhow!("--stalls {name}: comes twice"));
+                return Err(anyhow!("--stalls {name}: is given twice; give it once"));
             }
             all.push(Memory { name: name.clone(), waits });
         }

@@ -7,7 +7,7 @@ use serde_json::Value;
 /// A figure that is to be small or large.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Objective {
-    /// Its name on the command line.
+    /// Name on the command line.
     pub name: &'static str,
     /// Where a row has it.
     pub pointer: &'static str,
@@ -74,7 +74,7 @@ const USUAL_WITH_SYNTH: [&str; 4] = ["frames_per_s", "lut4", "z_error", "color_e
 const ACROSS_SHADINGS: &str = "shading_mean";
 
 impl Objective {
-    /// Those of these names; the usual ones if there is none. `shadings`: the machines shade differently.
+    /// The objectives of these names; the usual ones if there is none. `shadings`: the machines shade differently.
     ///
     /// # Errors
     /// An unknown name, one that comes twice, one that needs synthesis where there is none.
@@ -91,7 +91,7 @@ impl Objective {
                 .find(|objective| objective.name == name)
                 .ok_or_else(|| anyhow!("--objective {name}: {}", Unknown::new("figure", name, all)))?;
             if list.contains(found) {
-                return Err(anyhow!("--objective {name}: comes twice"));
+                return Err(anyhow!("--objective {name}: is given twice; give it once"));
             }
             if found.synth && !synth {
                 return Err(anyhow!("--objective {name}: only synthesis gives it; add --synth TARGET"));

@@ -21,7 +21,7 @@ pub enum Status {
     Pruned,
     /// The machine cannot be built.
     Invalid,
-    /// It cannot be drawn, a tool failed, or an error exceeds what is proved.
+    /// The machine cannot be drawn, a tool failed, or an error exceeds the proved bound.
     Failed,
     /// A tool took too long.
     Timeout,

@@ -126,7 +126,7 @@ pub struct Pixels {
     report: Report,
     culled: Vec<Option<Culled>>,
     passage: Passage,
-    /// It was drawn without ticking.
+    /// The pixels were drawn without ticking.
     plain: bool,
     /// From the shading equation, where that was asked for.
     distance: Option<Distance>,
@@ -151,7 +151,7 @@ impl Pixels {
             Err(Refusal::Foreign(foreign)) => return Err(foreign.into()),
         };
         let reach = Reach::of(plan, &port.ids, &passage).ok_or_else(|| {
-            anyhow!("none of the {} triangles covers a pixel of the screen", port.triangles.len())
+            anyhow!("none of the {} triangles covers a pixel of the screen; check the input, screen.width and screen.height", port.triangles.len())
         })?;
         let proved = Proved { reach: Some(&reach), shading: None };
         let (report, distance) = geometry.beside_golden(plan, &port, drawn, proved, Waits::Never)?;

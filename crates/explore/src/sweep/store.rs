@@ -33,7 +33,10 @@ impl Store {
         match file.try_lock() {
             Ok(()) => {}
             Err(TryLockError::WouldBlock) => {
-                return Err(anyhow!("{}: another sweep is writing to it", named()));
+                return Err(anyhow!(
+                    "{}: another sweep is writing to it; wait for its end, or choose another --out",
+                    named()
+                ));
             }
             Err(TryLockError::Error(error)) => return Err(error).with_context(named),
         }

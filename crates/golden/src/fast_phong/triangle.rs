@@ -102,7 +102,7 @@ impl FastPhong {
         self.turned(DVec3::ZERO, material, ambient, table)
     }
 
-    /// The same where a relief adds `turn` to the normal, which counts to first order: N·L and N·H grow by turn·L and turn·H.
+    /// Like `color`, where a relief adds `turn` to the normal, which counts to first order: N·L and N·H grow by turn·L and turn·H.
     pub fn turned(&self, turn: DVec3, material: &Material, ambient: DVec3, table: &PowerTable) -> DVec3 {
         let part = |Cosines { intensity, diffuse, halfway, directions: [l, h] }: &Cosines| {
             let cosine = diffuse.value() + turn.dot(*l);

@@ -30,7 +30,7 @@ impl<'a> Span<'a> {
         pairs.find(|span| (span.left.column()..span.right.column()).contains(&i64::from(x)))
     }
 
-    /// Its pixels on a screen so wide; both ends are rounded up, and the last is not in it.
+    /// The span's pixels on a screen of this width; both ends are rounded up, and the last is not in it.
     pub(crate) fn columns(&self, width: u32) -> Range<u32> {
         let on_screen = |column: i64| column.clamp(0, i64::from(width)) as u32;
         on_screen(self.left.column())..on_screen(self.right.column())

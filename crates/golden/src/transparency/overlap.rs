@@ -12,7 +12,7 @@ const LEAST_DEPTH: f64 = 1e-12;
 /// Where the first of two triangles lies.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Side {
-    /// They do not overlap, or are at the same depth.
+    /// The triangles do not overlap, or are at the same depth.
     Apart,
     /// Farther than the second.
     Farther,

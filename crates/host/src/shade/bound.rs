@@ -14,7 +14,7 @@ pub struct Proof {
     pub doubts: Vec<f64>,
     /// How far the indices may be from those of golden's cosines.
     pub errors: Vec<IndexErrors>,
-    /// Its texels, where it has a texture.
+    /// Texels of each surface, where it has a texture.
     pub textured: Vec<Option<Textured>>,
 }
 

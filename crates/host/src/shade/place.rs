@@ -11,7 +11,7 @@ pub struct Place {
     corners: [[i64; 2]; 3],
     /// P.
     pixel: i64,
-    /// Its spans run to the left.
+    /// The triangle's spans run to the left.
     pub leftward: bool,
     /// Column and line of the pixel that the walk of its spans begins at.
     pub start: [i64; 2],

@@ -33,7 +33,7 @@ pub struct Surfaces {
 }
 
 impl Surfaces {
-    /// Those of the frame, in the order in which they first appear.
+    /// The surfaces of the frame, in the order in which they first appear.
     ///
     /// # Errors
     /// What the machine's tables cannot hold.

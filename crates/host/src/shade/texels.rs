@@ -166,7 +166,7 @@ pub fn words(textures: &[Option<Texture>], machine: &Plan) -> Result<Vec<u128>> 
 /// Which texels a triangle's words name.
 #[derive(Clone, Debug)]
 pub struct Textured {
-    /// Its surface's.
+    /// The surface's texture.
     pub texture: Texture,
     /// u and v where its walk begins.
     words: [TermWords; 2],

@@ -104,7 +104,7 @@ impl Turns {
         self.growths[place].into_iter().map(most).sum::<f64>() * self.slope_error
     }
 
-    /// The same of N·N.
+    /// Like `growth_error`, of N·N.
     pub fn square_error(&self) -> f64 {
         self.gap + (2.0 * self.longest + self.turn_error) * self.turn_error
     }

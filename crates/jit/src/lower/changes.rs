@@ -20,7 +20,7 @@ pub(super) struct Change {
 pub(super) struct Branch {
     /// Registers that change in it.
     pub changed: Vec<ValueId>,
-    /// Those of which it has read the old value.
+    /// Values of which the branch has read the old value.
     pub old: Vec<ValueId>,
     /// By the units that have to know.
     pub differences: Vec<Difference>,

@@ -46,7 +46,7 @@ impl Known {
         self.is_shared[value.index()]
     }
 
-    /// These values are to be kept in the state when they are computed.
+    /// Marks values that are kept in the state when they are computed.
     pub fn keep(&mut self, shared: &[ValueId]) {
         shared.iter().for_each(|value| self.is_shared[value.index()] = true);
     }

@@ -9,7 +9,7 @@ use super::range::Range;
 /// A value in its forms; all have the type [`lane`] of its width.
 #[derive(Clone, Copy)]
 pub(super) struct Lowered {
-    /// Its bits; above them anything.
+    /// The value's bits; above them anything.
     pub any: Value,
     /// `any` is below 2^bits.
     pub bits: u32,
@@ -21,7 +21,7 @@ pub(super) struct Lowered {
     pub sign: Option<Value>,
     /// Of a bit, `any` as a word, below 2^bits too: as which it was read or worked out.
     pub word: Option<Value>,
-    /// It is in its place in the state, as `any`, and has to be read there.
+    /// The value stands in its place in the state, as `any`, and has to be read there.
     pub is_kept: bool,
 }
 

@@ -9,7 +9,7 @@ pub(super) struct Range {
 }
 
 impl Range {
-    /// This number alone.
+    /// The range of one number.
     pub fn of(number: i64) -> Range {
         Range { low: number, high: number }
     }

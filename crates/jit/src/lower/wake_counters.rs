@@ -69,7 +69,7 @@ impl Values<'_> {
         }
     }
 
-    /// These units work on.
+    /// Marks these units as working.
     pub fn wake(&mut self, units: u64) {
         for (unit, clocks) in self.plan.wakes.units(units) {
             let clocks = self.cursor.constant(types::I8, clocks.into());

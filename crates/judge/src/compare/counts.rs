@@ -15,7 +15,7 @@ pub struct Counts {
     pub coverage_mismatches: u64,
     /// Pixels that golden covers.
     pub covered: u64,
-    /// Those of them whose triangle, number of writes, depth, colour and values of the user's own were compared.
+    /// Covered pixels whose triangle, number of writes, depth, colour and values of the user's own were compared.
     pub compared: u64,
     /// Pixels that show another triangle, or were written another number of times, as two depths there are too near for the
     /// bound to tell their order (bound 7).

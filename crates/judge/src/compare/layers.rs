@@ -122,7 +122,7 @@ impl Errors {
         Errors { max: machine.color.max() as f64, front: error(1), kt: kt.map_or(0.5, error) / one }
     }
 
-    /// That of a fragment of this colour, 0 to 1, of which golden shows this share, LSB.
+    /// Error of a fragment of this colour, 0 to 1, of which golden shows this share, LSB.
     pub fn front(&self, own: [f64; 3], share: f64, seen: &Seen) -> f64 {
         seen.front(self.front, own.into_iter().fold(0.0, f64::max), share, self.max)
     }

@@ -25,13 +25,13 @@ const SLACK: f64 = 1e-6;
 pub struct Lit {
     /// Pixels whose decision was explained or not: all that show the triangle that golden shows.
     pub pixels: u64,
-    /// Those of them in shadow.
+    /// Compared pixels in shadow.
     pub shadow: u64,
-    /// Those that golden decides otherwise.
+    /// Compared pixels that golden decides otherwise.
     pub differ: u64,
-    /// Those for which neither texel nor depth within their bounds gives the decision.
+    /// Differing pixels for which neither texel nor depth within their bounds gives the decision.
     pub unexplained: u64,
-    /// Those for which nothing is proved, as a texel may be off by one or more.
+    /// Pixels for which nothing is proved, as a texel may be off by one or more.
     pub open: u64,
     /// Of a picture whose colours are bounded layer by layer: those where a layer may have one of several shares of its colour, an LSB or
     /// more apart.
@@ -134,7 +134,7 @@ impl<'a> Lights<'a> {
         Lights { machine, frame, words, off, found }
     }
 
-    /// The same of what was drawn; `None` where no light counts.
+    /// Like `of`, of what was drawn; `None` where no light counts.
     pub fn drawn(
         machine: &'a Plan,
         frame: &'a Frame,

@@ -25,7 +25,7 @@ use toml::{Table, Value};
 /// Why a file is no case.
 #[derive(Debug, thiserror::Error)]
 pub enum CaseError {
-    /// It is no TOML.
+    /// The text is no TOML.
     #[error("{0}")]
     Syntax(#[from] toml::de::Error),
     /// A key that no case has, or a value of another kind.

@@ -52,7 +52,7 @@ pub enum PortError {
         module: String,
         /// The port.
         port: String,
-        /// Its width.
+        /// Width of the port.
         found: u32,
         /// The width it should have.
         wanted: u32,

@@ -25,7 +25,7 @@ enum Part {
     Value(usize, usize),
     /// k_t of the triangle, that of its first vertex.
     Kt,
-    /// It is a line.
+    /// A line, not a triangle.
     Thin,
     /// And has x and y exchanged.
     Flat,

@@ -15,11 +15,11 @@ pub enum Direction {
 /// One port.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Port {
-    /// Its place among the values.
+    /// Place among the values.
     pub id: PortId,
     /// The unit that has it.
     pub owner: &'static str,
-    /// Its name.
+    /// Name of the port.
     pub name: String,
     /// What it carries; a field of a token goes by its name in the token.
     pub field: Field,
@@ -191,7 +191,7 @@ pub struct Memory {
     pub read: usize,
     /// Number of the link with the words.
     pub data: usize,
-    /// Who writes it; nobody if that link is not the unit's.
+    /// The write that changes it; none if another unit's link writes it.
     pub write: Option<MemoryWrite>,
     /// Bits of an address.
     pub address_bits: u32,

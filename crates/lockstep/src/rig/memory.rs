@@ -89,7 +89,7 @@ impl Served {
 #[derive(Clone, Debug)]
 struct Words {
     setting: MemorySetting,
-    /// Those that were written; there are none behind the last.
+    /// Pages that were written; none behind the last.
     pages: Vec<Option<Box<[u128; PAGE]>>>,
 }
 

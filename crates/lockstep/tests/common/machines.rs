@@ -61,7 +61,7 @@ fn draw(rng: &mut Pcg64Mcg) -> Machine {
         if rng.random_bool(0.1) { rng.random_range(8..=14) } else { rng.random_range(2..=6) };
     machine.tag_bits = *[0, 1, 5, 32].choose(rng).expect("four");
     if machine.setup_kind == SetupKind::Sequenced {
-        (machine.fill, machine.edge_kind, machine.polygon.lines) = (Fill::Exact, EdgeKind::Exact, Lines::No);
+        (machine.fill, machine.edge_kind) = (Fill::Exact, EdgeKind::Exact);
     }
     if machine.fill == Fill::Textbook {
         machine.subpixel_bits = 0;

@@ -1,13 +1,13 @@
 //! The listing as words.
 //!
 //! ```text
-//!  .constant NAME  .row NAME  .pass NAME (2 rows)  .table NAME (4 rows)      rows, in their order from 0
+//!  .constant NAME  .row NAME  .pass NAME (2 rows)  .table NAME (4 rows)  .rounds NAME (8 rows)     rows, in their order from 0
 //!  .if FEATURE … .else … .end                                            lines of machines that have it
 //!  label:  operation row -> row ; clause ; clause  # comment
 //! ```
 
 use super::word::{
-    Act, Base, Control, Corner, Drop, Factor, Give, Only, Operand, Part, Row, Sign, Step, Word, Write,
+    ACTS, Act, Base, Control, Corner, Factor, Give, Only, Operand, Part, Row, Sign, Step, Word, Write,
 };
 use std::collections::BTreeMap;
 
@@ -65,6 +65,7 @@ impl Reader {
             ".constant" | ".row" => 1,
             ".pass" => 2,
             ".table" => 4,
+            ".rounds" => 8,
             _ => return Err("no such directive".to_owned()),
         };
         let first = self.next_row.next_multiple_of(count);
@@ -136,9 +137,10 @@ impl Reader {
 
     fn write(&self, text: &str) -> Result<Write, String> {
         match text.strip_suffix(".a") {
-            Some(name) => Ok(Write { row: self.named(name)?, only_a: true }),
+            Some(name) => Ok(Write { row: self.named(name)?, only_a: true, numbered: false }),
             None => match self.row(text)? {
-                Row::Named(row) => Ok(Write { row, only_a: false }),
+                Row::Named(row) => Ok(Write { row, only_a: false, numbered: false }),
+                Row::Number(row) => Ok(Write { row, only_a: false, numbered: true }),
                 _ => Err("not a row to write".to_owned()),
             },
         }
@@ -150,6 +152,7 @@ impl Reader {
             return match index {
                 "digits]" => Ok(Row::Digits(table)),
                 "edge]" => Ok(Row::Edge(table)),
+                "number]" => Ok(Row::Number(table)),
                 "pass]" => Ok(Row::Pass(table)),
                 _ => Err("no such index".to_owned()),
             };
@@ -189,6 +192,7 @@ impl Reader {
                 "if positive" => step.only = Only::Positive,
                 "if no upper" => step.only = Only::NoUpper,
                 "if right" => step.only = Only::Right,
+                "if thin" => step.only = Only::Thin,
                 "raised" => step.operand = Operand::Raised,
                 "by side" if step.sign == Sign::Plus => step.sign = Sign::PlusBySide,
                 "by side" if step.sign == Sign::Minus => step.sign = Sign::MinusBySide,
@@ -201,6 +205,7 @@ impl Reader {
     fn control(&self, clause: &str) -> Result<Option<Control>, String> {
         let alone = match clause {
             "words" => Control::Words,
+            "room" => Control::Room,
             "settle" => Control::Settle,
             "digits" => Control::Digits,
             "again" => Control::Again,
@@ -245,29 +250,5 @@ fn give(name: &str) -> Option<Give> {
 }
 
 fn act(name: &str) -> Option<Act> {
-    Some(match name {
-        "unsorted" => Act::Unsorted,
-        "swap01" => Act::Swap01,
-        "swap12" => Act::Swap12,
-        "side" => Act::Side,
-        "upper" => Act::Upper,
-        "lower" => Act::Lower,
-        "shift" => Act::Shift,
-        "judge" => Act::Judge,
-        "check" => Act::Check,
-        "times t" => Act::TimesT,
-        "times k" => Act::TimesK,
-        "scale" => Act::Scale,
-        "last round" => Act::LastRound,
-        "edge0" => Act::Edge(0),
-        "edge1" => Act::Edge(1),
-        "edge2" => Act::Edge(2),
-        "beside" => Act::Beside,
-        "alone" => Act::Alone,
-        "drop lines" => Act::Drop(Drop::Lines),
-        "drop columns" => Act::Drop(Drop::Columns),
-        "drop area" => Act::Drop(Drop::Area),
-        "done" => Act::Done,
-        _ => return None,
-    })
+    ACTS.iter().find(|(own, _)| *own == name).map(|(_, act)| *act)
 }

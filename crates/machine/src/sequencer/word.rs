@@ -87,6 +87,8 @@ pub enum Only {
     NoUpper,
     /// If `major_right`.
     Right,
+    /// If it is a line.
+    Thin,
 }
 
 /// Which row is read.
@@ -96,9 +98,11 @@ pub enum Row {
     Named(u8),
     /// Of the table that begins here: the row of the digits of f and g, 2 f + g.
     Digits(u8),
-    /// Of the table that begins here: the row of the edge.
+    /// Of the table that begins here: the row of the lane's edge.
     Edge(u8),
-    /// Of the two that begin here: that of the picture, or of the map.
+    /// Of the table that begins here: the row of the number of the round, or of the edge.
+    Number(u8),
+    /// Of the two that begin here: that of the picture, or of the map. Height and width change places for a flat line.
     Pass(u8),
     /// A word of a vertex.
     Vertex(Corner, Part),
@@ -140,10 +144,12 @@ pub enum Factor {
 /// Where A and W are written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Write {
-    /// The row.
+    /// The row, or the first of a table.
     pub row: u8,
     /// A only.
     pub only_a: bool,
+    /// Of the table the row of the number.
+    pub numbered: bool,
 }
 
 /// The results.
@@ -180,6 +186,8 @@ pub enum Control {
     Next,
     /// The same until a triangle is there.
     Words,
+    /// The same until no prim waits any more.
+    Room,
     /// The same until no leading digit is left to skip.
     Settle,
     /// The same for each digit that is left.
@@ -198,7 +206,7 @@ pub enum Control {
     NoUpper(u16),
     /// The named place if the lower part has no line.
     NoLower(u16),
-    /// The named place for the next round, if there is one.
+    /// The named place for the number before, if there is one.
     Rounds(u16),
     /// The named place.
     Goto(u16),
@@ -216,10 +224,36 @@ impl Control {
         match self {
             Zeros(at) | More(at) | Negative(at) | Unfit(at) | NoUpper(at) | NoLower(at) | Rounds(at)
             | Goto(at) | Call(at) => Some(at),
-            Next | Words | Settle | Digits | Again | Return => None,
+            Next | Words | Room | Settle | Digits | Again | Return => None,
         }
     }
 }
+
+/// All that a word can do besides, by the names of the listing. The place of an act is its number in the ROM, less one.
+pub const ACTS: [(&str, Act); 22] = [
+    ("unsorted", Act::Unsorted),
+    ("swap01", Act::Swap01),
+    ("swap12", Act::Swap12),
+    ("side", Act::Side),
+    ("upper", Act::Upper),
+    ("lower", Act::Lower),
+    ("shift", Act::Shift),
+    ("judge", Act::Judge),
+    ("check", Act::Check),
+    ("times t", Act::TimesT),
+    ("times k", Act::TimesK),
+    ("scale", Act::Scale),
+    ("last round", Act::LastRound),
+    ("edge0", Act::Edge(0)),
+    ("edge1", Act::Edge(1)),
+    ("edge2", Act::Edge(2)),
+    ("beside", Act::Beside),
+    ("alone", Act::Alone),
+    ("drop lines", Act::Drop(Drop::Lines)),
+    ("drop columns", Act::Drop(Drop::Columns)),
+    ("drop area", Act::Drop(Drop::Area)),
+    ("done", Act::Done),
+];
 
 /// What else is done.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -252,7 +286,7 @@ pub enum Act {
     LastRound,
     /// The edge is this one of major, first and second minor edge.
     Edge(u8),
-    /// Each of the first three lanes has an edge of its own.
+    /// Each of the first three lanes has an edge of its own; the number is 0.
     Beside,
     /// All lanes have the same rows and digits again.
     Alone,

@@ -32,6 +32,6 @@ events! {
     carry = "steps of the major edge with a carry" if always;
     no_carry = "steps of the major edge without a carry" if always;
     wrap = "steps of an edge value that leave the range of its word" if always;
-    fresh_wait = "cycles in which a triangle waits until the first span of the one before is taken" if always;
+    fresh_wait = "cycles in which a triangle waits until the first span of the one before is taken" if |plan| !plan.is_sequenced();
     span_fifo_full = "cycles in which a line waits for the span FIFO" if always;
 }

@@ -27,13 +27,14 @@ fn ports(plan: &Plan) -> Ports {
     }
 }
 
-/// A triangle word by word. The tag is no word, so that a machine with one takes no longer.
+/// A triangle or line word by word. Its role and the tag are no words: they take no cycle of their own.
 fn words(plan: &Plan) -> Link {
-    let (tag, words): (Vec<Field>, Vec<Field>) =
-        tokens::triangle(plan).into_iter().partition(|field| field.name == "tag");
+    let (beside, words): (Vec<Field>, Vec<Field>) = tokens::triangle(plan)
+        .into_iter()
+        .partition(|field| ["thin", "flat", "tag"].contains(&field.name.as_str()));
     let bits = words.iter().map(Field::width).max().unwrap_or(1); // never empty
     let data = Field::count("data", bits, "x, y and the channels' values of vertex 0, 1, 2, in its low bits");
-    Link { words, ..Link::new("in", std::iter::once(data).chain(tag).collect()) }
+    Link { words, ..Link::new("in", std::iter::once(data).chain(beside).collect()) }
 }
 
 events! {

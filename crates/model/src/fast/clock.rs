@@ -6,6 +6,7 @@
 //! ```
 //! Every time is the greatest of what it waits for (max-plus), section by section of `docs/machine.md`:
 //! - 2: `a' = p + w`, or `a + S1 + w` if culled, with w words of a triangle, 1 if it comes at once; `p = max(a + S1 + S2 + 1, EDGE free, first span popped + 1)`;
+//!   sequenced `p = max(a + S, EDGE free + 1, first span popped + 2) + L + 1`;
 //! - 3, 4: a line leaves EDGE a clock after the one before, `l`, and in the cycle in which that one moves on from SPAN's register;
 //!   it moves in `m >= l + 1`, span k and what lies between it and span k − 1 not before `o(k−F) + 1`, the cycle in which the
 //!   registered FIFO shows the room;
@@ -32,7 +33,7 @@ use edgewalk_machine::{Activity, Hazard, Plan};
 struct LastRead {
     /// Cycle of its read.
     cycle: u64,
-    /// It passes the depth test, and so is in w a cycle longer.
+    /// The fragment passes the depth test, and so is in w a cycle longer.
     passed: bool,
 }
 
@@ -66,6 +67,8 @@ pub(super) struct Clock {
     inflight: Option<InFlight>,
     /// Words of a triangle behind the first, one a cycle.
     words: u64,
+    /// SETUP is sequenced: it keeps a prim till EDGE has walked it.
+    keeps: bool,
 
     /// a: the cycle in which SETUP takes the next triangle; before its words have come, the first of them.
     take: u64,
@@ -107,6 +110,7 @@ impl Clock {
             drain: plan.hazard == Hazard::Drain,
             inflight: InFlight::new(plan, depth_write),
             words: if plan.is_sequenced() { u64::from(plan.triangle_words() - 1) } else { 0 },
+            keeps: plan.is_sequenced(),
             take: 0,
             edge_free: 0,
             offer: 0,
@@ -140,8 +144,12 @@ impl Clock {
         self.enter_setup();
         self.setup[0] += u64::from(setup.phase1);
         self.setup[1] += u64::from(setup.phase2);
-        let ready = self.take + u64::from(setup.all()) + 1;
-        let prim = ready.max(self.edge_free);
+        let prim = if self.keeps {
+            // The prim before is taken in `edge_free`; a cycle later the next one is brought in.
+            (self.take + u64::from(setup.phase1)).max(self.edge_free + 1) + u64::from(setup.phase2) + 1
+        } else {
+            (self.take + u64::from(setup.all()) + 1).max(self.edge_free)
+        };
         self.take = prim + 1;
         self.offer = prim + 1;
         self.fresh = true;

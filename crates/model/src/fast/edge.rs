@@ -43,7 +43,7 @@ impl Edge {
         lines.map(|line| integer(self.at + f64::from(line) * self.step) as i32)
     }
 
-    /// The same of two edges, the second from line `knee` on.
+    /// Like `columns`, of two edges, the second from line `knee` on.
     #[inline(always)]
     pub(super) fn columns_of_two(edges: &[Edge; 2], knee: i32, lines: &[i32; LINES]) -> [i32; LINES] {
         let [upper, lower] = edges;

@@ -110,7 +110,7 @@ impl Renderer {
         self.pass(&mut by_batches(triangles), state, None)
     }
 
-    /// The same, and keeps how the frame went through the units: it can be clocked again with other timing keys.
+    /// Like `draw`, and keeps how the frame went through the units: it can be clocked again with other timing keys.
     ///
     /// # Errors
     /// As [`Renderer::draw`].

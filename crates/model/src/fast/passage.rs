@@ -47,7 +47,7 @@ pub struct Fate {
     /// The pixel behind the most additions, y·W + x, with the lines and columns stepped to it from the first drawn line; in
     /// textbook fill from the first line of its part.
     pub farthest: Option<(u32, [u32; 2])>,
-    /// Its parts end here among all parts.
+    /// Where the fragment's parts end among all parts.
     parts: u32,
     /// Lines without a pixel behind the last span.
     empty: u32,

@@ -29,7 +29,7 @@ pub enum Reason {
 /// Why a frame was not drawn without ticking.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Refusal {
-    /// It has to be ticked.
+    /// The machine has to be ticked.
     Tick(Reason),
     /// A triangle was made for another machine.
     Foreign(ForeignVertex),

@@ -95,7 +95,7 @@ impl Setup {
         (clocks, culled.is_none())
     }
 
-    /// The same in 64 bits.
+    /// Like `increments`, in 64 bits.
     #[inline(always)]
     fn short(&self, sorted: &Sorted<FEW>, prim: &mut Prim<FEW>) -> Result<(SetupClocks, bool), TooLong> {
         let [a, b, c] = &sorted.corners;

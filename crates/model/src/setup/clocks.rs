@@ -36,7 +36,7 @@ const FITS: u32 = 1;
 const BEHIND: u32 = 4;
 /// From the first clock of a triangle until the area is known and scaled, less the bits of dv2 and the scale.
 const AREA: u32 = 4;
-/// The same behind gx of a round, for the next.
+/// Like `AREA`, behind gx of a round, for the next.
 const NEXT_SCALE: u32 = 4;
 
 /// The channels that the lanes do side by side.
@@ -124,7 +124,7 @@ impl Timing {
         }
     }
 
-    /// S of a triangle, if SETUP is sequenced; `prim` has its edges, unless it is culled.
+    /// S and L of a triangle, if SETUP is sequenced; `prim` has its edges, unless it is culled.
     #[inline(always)]
     pub(crate) fn of_program<const C: usize>(
         &self,
@@ -134,7 +134,7 @@ impl Timing {
         prim: &Prim<C>,
     ) -> Option<SetupClocks> {
         let program = self.program.as_ref()?;
-        Some(SetupClocks { phase1: program.clocks(screen, sorted, parts, prim), phase2: 0 })
+        Some(program.clocks(screen, sorted, parts, prim))
     }
 
     /// Of a triangle that is culled by lines or columns.
@@ -234,7 +234,7 @@ impl Timing {
     /// Of a triangle none of whose numbers fits, and whose factors are as long as their formats.
     fn longest(&self) -> SetupClocks {
         if let Some(program) = &self.program {
-            return SetupClocks { phase1: program.longest(), phase2: 0 };
+            return program.longest();
         }
         let edge_rounds = 3usize.div_ceil(self.lanes) as u32;
         let unsigned = self.difference - 1;

@@ -18,13 +18,13 @@ impl Screen {
         Screen { width: plan.width.into(), height: plan.height.into() }
     }
 
-    /// The same, or with `light_pass` SIZE and SIZE of the map.
+    /// Like `picture`, or with `light_pass` SIZE and SIZE of the map.
     pub(crate) fn of_pass(plan: &Plan, light_pass: bool) -> Self {
         let size = plan.shadow.size.into();
         if light_pass { Screen { width: size, height: size } } else { Screen::picture(plan) }
     }
 
-    /// The same as a triangle or line of this role has it: x and y of a flat line are exchanged.
+    /// Like `of_pass`, as a triangle or line of this role has it: x and y of a flat line are exchanged.
     fn of_role(self, role: Role) -> Self {
         match role {
             Role::Line { flat: true } => Screen { width: self.height, height: self.width },
@@ -36,7 +36,7 @@ impl Screen {
 impl Screen {
     /// The first column at or right of each corner, cut to the screen.
     pub(super) fn columns<const C: usize>(self, t: u32, sorted: &Sorted<C>) -> [i64; 3] {
-        [0, 1, 2].map(|i| (-(-sorted.corners[i].u >> t)).clamp(0, self.width)) // rounded up
+        [0, 1, 2].map(|i| (-(-sorted.corners[i].u >> t)).clamp(0, self.of_role(sorted.role).width)) // rounded up
     }
 }
 

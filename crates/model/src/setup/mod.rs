@@ -7,8 +7,9 @@
 //! Formats: vertices XW bits, 2^-s px; inside, integers of any length (the lanes are as long as they need be); outside,
 //! columns of COLW bits and words of b + r bits, both modular.
 //!
-//! Timing: a triangle taken in cycle n is computed in S1 cycles (edges, area, cull), and S2 more (channels) unless it
-//! is culled, both as its numbers ask for; `prim` is offered from cycle n + S1 + S2 + 1 until it is taken, `tri_ready` is high in the cycle after.
+//! Timing: a parallel unit computes a triangle taken in cycle n in S1 cycles (edges, area, cull), and S2 more (channels) unless it
+//! is culled, both as its numbers ask for; `prim` is offered from cycle n + S1 + S2 + 1 until it is taken, `tri_ready` is high in the cycle after. A sequenced unit works for S
+//! cycles, waits while a prim is offered, and takes L more for the next; it takes words while EDGE walks.
 //!
 //! Rules: `docs/machine.md`, section 2. Not modelled: the lanes bit by bit; all is computed when the triangle arrives
 //! and appears when the hardware would have it.
@@ -58,6 +59,10 @@ pub struct Setup<const C: usize> {
     /// Of this triangle.
     clocks: SetupClocks,
     prim: Prim<C>,
+    sequenced: bool,
+    /// Of a sequenced unit: a prim is offered, and which.
+    there: bool,
+    given: Prim<C>,
     /// Apart from the rest, as only a recording looks at it: inside, it made every cycle slower.
     sorted: Box<Sorted<C>>,
     /// Not hardware: triangles taken in.
@@ -85,6 +90,9 @@ impl<const C: usize> Setup<C> {
             culled: false,
             clocks: SetupClocks::default(),
             prim: Prim::default(),
+            sequenced: plan.is_sequenced(),
+            there: false,
+            given: Prim::default(),
             sorted: Box::new(Sorted::default()),
             taken: 0,
             record: u32::MAX,
@@ -99,6 +107,7 @@ impl<const C: usize> Setup<C> {
         self.remaining = 0;
         self.record = u32::MAX;
         self.come = 0;
+        self.there = false;
     }
 
     /// A triangle, or a word of one, can be taken: the unit is IDLE.
@@ -119,6 +128,9 @@ impl<const C: usize> Setup<C> {
     #[inline]
     #[must_use]
     pub fn prim(&self) -> Option<&Prim<C>> {
+        if self.sequenced {
+            return self.there.then_some(&self.given);
+        }
         (self.state == State::Done).then_some(&self.prim)
     }
 
@@ -138,11 +150,13 @@ impl<const C: usize> Setup<C> {
         light_pass: bool,
         events: &mut Events,
     ) {
+        let waits = self.there;
+        self.there &= !prim_ready;
         if self.remaining > 0 {
             self.remaining -= 1;
             return;
         }
-        if self.state == State::Done && !prim_ready {
+        if self.state == State::Done && !prim_ready && !self.sequenced {
             return;
         }
         match self.state {
@@ -158,9 +172,14 @@ impl<const C: usize> Setup<C> {
                 }
             }
             State::Phase1 if self.culled => self.state = State::Idle,
-            State::Phase1 if self.clocks.phase2 == 0 => self.state = State::Done, // sequenced: WORK is over
+            State::Phase1 if waits => {} // sequenced: its last word is repeated
             State::Phase1 => self.enter(State::Phase2, self.clocks.phase2),
-            State::Phase2 => self.state = State::Done,
+            State::Phase2 => {
+                self.state = State::Done;
+                if self.sequenced {
+                    (self.there, self.given) = (true, self.prim);
+                }
+            }
             State::Done => self.state = State::Idle,
         }
     }
@@ -227,7 +246,7 @@ pub enum Culled {
     Lines,
     /// No column (exact fill).
     Columns,
-    /// Its area is 0.
+    /// The triangle's area is 0.
     Area,
 }
 
@@ -270,7 +289,7 @@ pub(crate) fn prepare<const C: usize>(
     (clocks, culled)
 }
 
-/// The same with the clocks of a parallel SETUP.
+/// Like `prepare`, with the clocks of a parallel SETUP.
 fn found<const C: usize>(
     plan: &Plan,
     timing: &Timing,

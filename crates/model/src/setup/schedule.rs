@@ -42,7 +42,7 @@ pub(crate) enum Job {
 }
 
 impl Job {
-    /// Their names, in their order.
+    /// Names of the jobs, in their order.
     pub const NAMES: [&'static str; 28] = [
         "-",
         "look",

@@ -1,4 +1,4 @@
-//! S: the words that the program of a sequenced SETUP executes for a triangle, counted without running it.
+//! S and L: the words that the program of a sequenced SETUP executes for a triangle, counted without running it.
 //!
 //! Between branches and loops the words are those of the listing, once each; they are counted when a machine is made. What is
 //! left for a triangle: the digits of the sums, how often a number is doubled, which numbers do not fit, which parts have lines.
@@ -6,12 +6,13 @@
 //!
 //! Rules: `docs/machine.md`, section 2, "The sequencer".
 
+use super::SetupClocks;
 use super::edges::{Parts, Screen};
 use super::sort::{Corner, Sorted};
 use crate::tokens::Prim;
-use edgewalk_machine::Plan;
 use edgewalk_machine::sequencer::word::{Act, Control, Drop, Factor, Word};
 use edgewalk_machine::sequencer::{Program, edges_are_beside, rounds};
+use edgewalk_machine::{Plan, Role};
 use std::ops::Range;
 
 /// Clocks from the word that loads g until its first skipped digit shows.
@@ -61,7 +62,10 @@ pub(crate) struct ProgramClocks {
     start: Block,
     /// Behind the sum of start.
     round_end: u32,
-    done: u32,
+    /// Behind the rounds, up to the word that waits for room.
+    room: u32,
+    /// L.
+    load: u32,
     /// In the order of the program: the last channels first.
     rounds: Vec<Round>,
 }
@@ -83,6 +87,16 @@ impl Listing {
 
     fn branch(&self, control: Control) -> usize {
         self.find(0, |word| word.control == control)
+    }
+
+    /// Words behind the one that waits for room: two loops, over edges and rounds, and what stands between and behind them.
+    fn load(&self, room: usize, edges: u32, rounds: u32) -> u32 {
+        let done = self.find(room, |word| word.act == Some(Act::Done));
+        let length = |label: &str| {
+            let first = self.label(label);
+            (self.branch(Control::Rounds(first as u16)) + 1 - first) as u32
+        };
+        (done - room) as u32 + (edges - 1) * length("edges") + (rounds - 1) * length("given")
     }
 
     fn block(&self, places: Range<usize>) -> Block {
@@ -112,6 +126,7 @@ impl ProgramClocks {
             let bits = most(&channels, &|i| all[i].vertex_bits());
             Round { channels, doublings, bits }
         });
+        let rounds: Vec<Round> = rounds.collect();
         let drops = |drop| listing.find(0, |word| word.act == Some(Act::Drop(drop)));
         let area_test = listing.branch(Control::Negative(at("noarea")));
         let mut columns = [0; 4];
@@ -142,6 +157,7 @@ impl ProgramClocks {
         let unfit_edge = listing.branch(Control::Unfit(at("slow")));
         let unfit = listing.branch(Control::Unfit(at("scale")));
         let again = listing.branch(Control::Rounds(at("round")));
+        let room = listing.branch(Control::Room);
         let scaled = listing.find(label("scale"), |word| word.act == Some(Act::Scale));
         let fits = listing.find(label("slow"), |word| word.control == Control::Goto(at("fits")));
         // Of a sum by zeros and digits only what stands before and behind it counts here.
@@ -168,29 +184,31 @@ impl ProgramClocks {
             d0: listing.block(label("gx1")..label("d0")),
             start: listing.block(label("d01")..label("st")),
             round_end: (again + 1 - label("st1")) as u32,
-            done: (listing.find(again, |word| word.act == Some(Act::Done)) - again) as u32,
-            rounds: rounds.collect(),
+            room: (room - again) as u32,
+            load: listing.load(room, if beside { 1 } else { 3 }, rounds.len() as u32),
+            rounds,
         }
     }
 
-    /// S of a triangle on this screen; `prim` has its edges, unless it is culled.
+    /// S and L of a triangle on this screen; `prim` has its edges, unless it is culled.
     pub(crate) fn clocks<const C: usize>(
         &self,
         screen: Screen,
         sorted: &Sorted<C>,
         parts: &Parts,
         prim: &Prim<C>,
-    ) -> u32 {
+    ) -> SetupClocks {
+        let culled = |phase1| SetupClocks { phase1, phase2: 0 };
         if parts.lines == [0, 0] {
-            return self.no_lines;
+            return culled(self.no_lines);
         }
-        let Some(columns) = self.columns(screen, sorted) else { return self.no_columns };
+        let Some(columns) = self.columns(screen, sorted) else { return culled(self.no_columns) };
         let [a, b, c] = &sorted.corners;
         let (du1, dv1, du2, dv2) = (b.u - a.u, b.v - a.v, c.u - a.u, c.v - a.v);
         let (area, along) = (sorted.area(), [dv2, dv1]);
         let front = columns + self.count(self.area, along, 0) + length(along) - 1;
         if area == 0 {
-            return front + self.no_area;
+            return culled(front + self.no_area);
         }
         let edges = self.edges(sorted, parts);
         let q = i64::from(prim.major.q);
@@ -200,7 +218,7 @@ impl ProgramClocks {
         let x = i64::from(prim.major.c) - i64::from(prim.major_right);
         let down = [q * dv2 - du2, q * dv1 - du1];
         let across = [(x << self.t) - a.u - q * h, h];
-        let mut clocks = front + edges + shear + self.done;
+        let mut clocks = front + edges + shear + self.room;
         let side = if area < 0 { -1 } else { 1 };
         let (mut modulus, mut scale) = (area.abs(), 0);
         for round in &self.rounds {
@@ -221,13 +239,13 @@ impl ProgramClocks {
             clocks += self.count(self.d0, down, doubled) + sum(down);
             clocks += self.count(self.start, across, doubled) + sum(across) + self.round_end;
         }
-        clocks
+        SetupClocks { phase1: clocks, phase2: self.load }
     }
 
     /// The words up to the area; none if there is no column.
     fn columns<const C: usize>(&self, screen: Screen, sorted: &Sorted<C>) -> Option<u32> {
         let [i0, i1, i2] = screen.columns(self.t, sorted);
-        let tests = [i2 < i0, i1 < i0, i0 < i2, i0 < i1];
+        let tests = [i2 < i0, i1 < i0, i0 < i2, i0 < i1 || sorted.role != Role::Triangle];
         tests.iter().position(|found| *found).map(|test| self.columns[test])
     }
 
@@ -281,8 +299,8 @@ impl ProgramClocks {
         block.words + more + shows.saturating_sub(block.wait + more)
     }
 
-    /// At least S of any triangle.
-    pub(super) fn longest(&self) -> u32 {
+    /// At least S and L of any triangle.
+    pub(super) fn longest(&self) -> SetupClocks {
         let block = |block: Block, more: u32| self.words(block, self.digits, more);
         let sum = 3 * self.digits;
         let edge = block(self.edge, self.t - 1) + sum + 2 * (self.t - 1) + block(self.slow, 0) + sum;
@@ -296,7 +314,8 @@ impl ProgramClocks {
             block(self.differences, 0) + sums + self.round_end
         });
         let scaled = scales * (block(self.differences, 0) + self.scale);
-        (front + rounds.sum::<u32>() + scaled + self.done).max(self.no_columns)
+        let phase1 = (front + rounds.sum::<u32>() + scaled + self.room).max(self.no_columns);
+        SetupClocks { phase1, phase2: self.load }
     }
 }
 

@@ -2,14 +2,14 @@
 
 use super::edges::{no_columns, parts};
 use super::schedule::{Job, Schedule, schedule};
-use super::{Setup, State};
+use super::{Setup, SetupClocks, State};
 use crate::tokens::EdgeWalk;
 use crate::view::{Shape, View, increment, modulo, word};
 use edgewalk_machine::units::tokens::{EDGES, results};
 use edgewalk_machine::{Fill, PortVertex};
 
 const STATES: [&str; 4] = ["IDLE", "PHASE1", "PHASE2", "DONE"];
-const SEQUENCED_STATES: [&str; 4] = ["IDLE", "WORK", "-", "DONE"];
+const SEQUENCED_STATES: [&str; 4] = ["IDLE", "WORK", "LOAD", "DONE"];
 
 impl<const C: usize> Setup<C> {
     /// Shows the unit in a cycle with these inputs.
@@ -45,13 +45,20 @@ impl<const C: usize> Setup<C> {
         }
         let drops = self.state == State::Phase1 && self.culled && self.remaining == 0;
         view.says(drops, "drops the triangle: no line, no column, or no area.");
-        view.says(done && prim_ready, "hands the triangle over: {n1} + {n2} lines from line {jm} on.");
-        view.says(
-            done && !prim_ready,
-            "waits with the triangle: EDGE walks, or PIXEL has not taken the increments of the one before.",
-        );
-        view.takes(if self.plan.is_sequenced() { "in" } else { "tri" }, tri.is_some(), idle);
-        view.gives("prim", Some("edge"), done, prim_ready);
+        let offered = self.prim().is_some();
+        if self.sequenced {
+            let waits = self.state == State::Phase1 && self.remaining == 0 && !self.culled && offered;
+            view.says(waits, "waits: EDGE still reads the registers of the triangle before.");
+            view.says(offered && prim_ready, "EDGE has walked the triangle before: its registers are free.");
+        } else {
+            view.says(done && prim_ready, "hands the triangle over: {n1} + {n2} lines from line {jm} on.");
+            view.says(
+                done && !prim_ready,
+                "waits with the triangle: EDGE walks, or PIXEL has not taken the increments of the one before.",
+            );
+        }
+        view.takes(if self.sequenced { "in" } else { "tri" }, tri.is_some(), idle);
+        view.gives("prim", Some("edge"), offered, prim_ready);
         view.step("triangle", 't');
     }
 
@@ -83,7 +90,8 @@ impl<const C: usize> Setup<C> {
 
     pub(super) fn jobs(&self) -> Schedule {
         if self.plan.is_sequenced() {
-            return Schedule([vec![(Job::Program, self.clocks.phase1)], Vec::new()]);
+            let SetupClocks { phase1, phase2 } = self.clocks;
+            return Schedule([phase1, phase2].map(|clocks| vec![(Job::Program, clocks)]));
         }
         let parts = parts(&self.plan, self.screen, &self.sorted);
         let at_once = parts.lines == [0, 0] || no_columns(&self.plan, self.screen, &self.sorted);

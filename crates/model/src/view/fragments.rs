@@ -4,7 +4,7 @@
 use super::{Field, Shape, output};
 use edgewalk_machine::{Channel, Plan};
 
-/// Its fields.
+/// Fields of a fragment.
 pub(crate) fn fields(plan: &Plan) -> Vec<Field> {
     std::iter::once(pixel(plan)).chain(plan.channels().iter().enumerate().map(channel)).collect()
 }
@@ -24,7 +24,7 @@ pub(crate) fn looked_up(plan: &Plan) -> (&'static str, &'static str) {
     }
 }
 
-/// Its fields: with PROJECT without the weight, and quotients in the place of what is divided.
+/// Fields of a fragment behind PROJECT: without the weight, and quotients in the place of what is divided.
 pub(crate) fn looked_up_fields(plan: &Plan) -> Vec<Field> {
     let (texel, distance) = (plan.shadow.texel_bits(), plan.shadow.distance_bits());
     let field = |(place, own): (usize, &Channel)| match own.name {
@@ -61,7 +61,7 @@ pub(crate) fn seen(plan: &Plan) -> (&'static str, &'static str) {
     }
 }
 
-/// Its fields: with SHADOW without the channels that end there, and with its answer; with DITHER with the colours that are stored.
+/// Fields of a fragment at DEPTH: with SHADOW without the channels that end there, and with its answer; with DITHER with the colours that are stored.
 pub(crate) fn seen_fields(plan: &Plan) -> Vec<Field> {
     let stored = |(place, own): (usize, &Channel)| match own.name {
         "r" | "g" | "b" => channel((place, &Channel { precision: plan.stored_color(), ..*own })),

@@ -66,7 +66,7 @@ impl Shape {
 /// One register.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Register {
-    /// Its name in the unit.
+    /// Name in the unit.
     pub name: String,
     /// What it holds.
     pub doc: String,
@@ -87,7 +87,7 @@ impl Register {
 /// A field of a token.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Field {
-    /// Its name.
+    /// Name of the field.
     pub name: &'static str,
     /// How it is read.
     pub shape: Shape,
@@ -138,7 +138,7 @@ pub enum Item {
 pub struct Sentence {
     /// The flag that says whether.
     pub when: Id,
-    /// Its words; `{name}` stands for a register of the unit, `{name.field}` for a field of a token.
+    /// Words of the sentence; `{name}` stands for a register of the unit, `{name.field}` for a field of a token.
     pub text: String,
 }
 
@@ -147,7 +147,7 @@ pub struct Sentence {
 pub struct Moment {
     /// In a word.
     pub title: String,
-    /// It happens in this cycle.
+    /// Flag: the moment happens in this cycle.
     pub when: Id,
     /// The token.
     pub token: Id,
@@ -167,15 +167,15 @@ pub struct Mark {
 /// A unit.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct UnitView {
-    /// Its name in files and modules.
+    /// Name in files and modules.
     pub name: String,
     /// What stands on its card.
     pub title: String,
-    /// Its section of `docs/machine.md`.
+    /// Section of `docs/machine.md`.
     pub section: u32,
     /// What it does.
     pub does: String,
-    /// Its card.
+    /// Items of the unit's card.
     pub items: Vec<Item>,
     /// Registers beside the card, that sentences name.
     pub aside: Vec<Id>,
@@ -185,7 +185,7 @@ pub struct UnitView {
     pub triangle: Option<Id>,
     /// The number in its lane.
     pub lane: Option<Id>,
-    /// It has work.
+    /// Flag: the unit has work.
     pub works: Option<Id>,
     /// A register whose changes are not folded away.
     pub phase: Option<Id>,
@@ -229,7 +229,7 @@ impl UnitView {
 /// A valid/ready link.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct LinkView {
-    /// Its name.
+    /// Name of the link.
     pub name: String,
     /// The unit that gives; `None`: from outside.
     pub from: Option<String>,
@@ -237,7 +237,7 @@ pub struct LinkView {
     pub to: Option<String>,
     /// A token is there.
     pub valid: Id,
-    /// It is taken.
+    /// Flag: the token is taken.
     pub ready: Id,
     /// To go from token to token: the word for it, and its key.
     pub step: Option<(&'static str, char)>,

@@ -6,11 +6,11 @@ use std::collections::HashMap;
 /// A kind of token, and every one of it that was met.
 #[derive(Clone, Debug)]
 pub struct Kind {
-    /// Its name.
+    /// Name of the kind.
     pub name: String,
     /// What a table of them is called.
     pub title: String,
-    /// Its fields.
+    /// Fields of the tokens.
     pub fields: Vec<Field>,
     /// Number k + 1: its triangle, then its fields.
     pub met: Vec<Vec<u64>>,

@@ -9,7 +9,7 @@ use crate::ops::{MAX_WIDTH, mask};
 
 /// A signal, a register or wire (its value), or a number, which takes the width of what it stands beside.
 pub trait Operand<'m> {
-    /// Its own width; a number has none.
+    /// Width of the operand; a number has none.
     fn width_in(&self, module: &'m Module) -> Option<u32>;
     /// As a signal of `module`; a number becomes a constant of `width` bits.
     fn signal(self, module: &'m Module, width: u32) -> Signal<'m>;

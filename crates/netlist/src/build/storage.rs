@@ -33,12 +33,12 @@ impl<'m> Reg<'m> {
         Reg { q, index }
     }
 
-    /// Its value.
+    /// The register's value.
     pub fn q(self) -> Signal<'m> {
         self.q
     }
 
-    /// Its format and unit.
+    /// Documents format and unit.
     pub fn doc(self, doc: &str) -> Self {
         self.q.module.draft().netlist.registers[self.index].doc = doc.to_string();
         self

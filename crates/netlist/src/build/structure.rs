@@ -41,12 +41,12 @@ impl<'m> Wire<'m> {
         wire.q
     }
 
-    /// Its value.
+    /// The wire's value.
     pub fn q(self) -> Signal<'m> {
         self.q
     }
 
-    /// Its format and unit.
+    /// Documents format and unit.
     pub fn doc(self, doc: &str) -> Self {
         self.q.module.draft().netlist.wires[self.index].doc = doc.to_string();
         self

@@ -44,7 +44,7 @@ pub enum SimError {
     TooWide {
         /// The input.
         name: String,
-        /// Its width.
+        /// Width of the input.
         width: u32,
         /// The value given.
         value: u128,

@@ -26,9 +26,9 @@ pub fn node(value: f64) -> i64 {
 pub struct Shares {
     /// Of the vertices at the pixel.
     pub here: [i64; 3],
-    /// Their growth a column along the span.
+    /// Growth of the shares a column along the span.
     pub column: [i64; 3],
-    /// Their growth a line down.
+    /// Growth of the shares a line down.
     pub line: [i64; 3],
 }
 
@@ -54,7 +54,7 @@ impl Shares {
         self.words(numerator, Degree::Linear, &Form { bits, offset, width })
     }
 
-    /// The same of the quadratic through `vertices` and `midpoints`, each opposite the vertex of its place.
+    /// Like `plane`, of the quadratic through `vertices` and `midpoints`, each opposite the vertex of its place.
     #[must_use]
     pub fn six_point(
         &self,

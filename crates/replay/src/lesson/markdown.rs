@@ -8,9 +8,10 @@ use std::fmt::Write as _;
 pub fn markdown(lesson: &Lesson) -> String {
     let mut text = String::from(
         "# One triangle through the machine\n\n\
-         Every number follows from the three corners by the formulae of [the specification](machine.md), computed exactly; beside it\n\
-         stands what the machine's register held, and the cycle. `edgewalk replay --lesson --out lesson.html` shows the same beside the\n\
-         machine at work. Written by `EDGEWALK_BLESS=1 cargo test --release -p edgewalk-replay --test lesson`.\n",
+         Every number follows from the three corners by the formulae of [the specification](machine.md), computed\n\
+         exactly. Beside it stand the value of the machine's register and the cycle. `edgewalk replay --lesson --out\n\
+         lesson.html` shows the numbers beside the machine at work. Written by `EDGEWALK_BLESS=1 cargo test --release -p\n\
+         edgewalk-replay --test lesson`.\n",
     );
     for (number, step) in lesson.steps.iter().enumerate() {
         let sections: Vec<String> = step.sections.iter().map(|n| format!("§{n}")).collect();
@@ -26,7 +27,7 @@ pub fn markdown(lesson: &Lesson) -> String {
         for part in &step.parts {
             match part {
                 Part::Text(words) => {
-                    _ = write!(text, "\n{words}\n");
+                    _ = write!(text, "\n{}\n", wrapped(words));
                     rows = false;
                 }
                 Part::Number { formula, value, check } => {
@@ -42,4 +43,25 @@ pub fn markdown(lesson: &Lesson) -> String {
         }
     }
     text
+}
+
+/// Characters of a line of a page.
+const WIDTH: usize = 118;
+
+/// A paragraph in lines of at most 118 characters, for a page in Markdown; a longer word has a line of its own.
+#[must_use]
+pub fn wrapped(paragraph: &str) -> String {
+    let mut lines = vec![String::new()];
+    for word in paragraph.split(' ') {
+        let (last, characters) = (lines.len() - 1, word.chars().count());
+        let length = lines[last].chars().count();
+        if length == 0 {
+            lines[last] += word;
+        } else if length + 1 + characters <= WIDTH {
+            lines[last] += &format!(" {word}");
+        } else {
+            lines.push(word.to_owned());
+        }
+    }
+    lines.join("\n")
 }

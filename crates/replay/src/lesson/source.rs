@@ -47,7 +47,7 @@ pub struct Block {
     pub title: String,
     /// Sections of `docs/machine.md`.
     pub sections: Vec<u32>,
-    /// Its lines.
+    /// Lines of the block.
     pub lines: Vec<Line>,
 }
 

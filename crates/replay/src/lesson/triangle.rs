@@ -2,7 +2,7 @@
 
 use edgewalk_machine::{Plan, PortVertex, VertexError};
 
-/// Its screen, pixels.
+/// Screen of the lesson, pixels.
 pub const SCREEN: (u32, u32) = (16, 12);
 
 /// Corners in pixels, depth, red, green and blue from 0 to 1.

@@ -16,7 +16,7 @@ pub(super) struct Old<'m> {
 
 /// What has been made of it.
 pub(super) struct Prepared<'m> {
-    /// Its own colours.
+    /// Colours of the fragment.
     pub own: [Signal<'m>; 3],
     /// What its own colour is weighed against.
     pub base: [Signal<'m>; 3],

@@ -9,9 +9,12 @@ use crate::wires::{Part, Registers, Token};
 pub(super) fn major<'m>(m: &'m Module, walk: &Walk<'m>, prim: &Token<'m>) -> (Signal<'m>, Signal<'m>) {
     m.comment("The major edge.");
     let first = |f: &str| prim[format!("major_{f}").as_str()];
-    let major = Edge::new(m, "major", prim);
+    let major = match walk.walked {
+        None => Edge::new(m, "major", prim),
+        Some(_) => Edge::at_port(m, "major", prim),
+    };
     let (rest, column) = major.next(m);
-    let rest = walk.idle.mux(major.first_rest(first), rest).named("major_next");
+    let rest = walk.idle.mux(Edge::rest_of(first), rest).named("major_next");
     major.rest.when(walk.line_done, rest);
     // Beside the sign of R - f, as it chooses in all values; the reset is what tells the two apart.
     let carry = m.reg("carry", 1).doc("the major edge carries in its next step").reset(0);
@@ -26,21 +29,35 @@ pub(super) fn minor<'m>(m: &'m Module, walk: &Walk<'m>, prim: &Token<'m>) -> (Si
     m.comment("The minor edge, and the one that takes its place at the knee.");
     let Walk { idle, offered, moves, exchanges, .. } = *walk;
     let first = |edge: &str, f: &str| prim[format!("{edge}_{f}").as_str()];
-    let second = Edge::new(m, "second", prim);
-    let second_rest = second.first_rest(|f| first("minor2", f)).named("minor2_rest");
-    second.rest.when(offered, second_rest);
-    second.own["c"].when(offered, first("minor2", "c"));
-    second.keep(offered, |f| first("minor2", f));
+    let second = walk.walked.is_none().then(|| Edge::new(m, "second", prim));
+    let second_rest = Edge::rest_of(|f| first("minor2", f)).named("minor2_rest");
+    if let Some(second) = &second {
+        second.rest.when(offered, second_rest);
+        second.own["c"].when(offered, first("minor2", "c"));
+        second.keep(offered, |f| first("minor2", f));
+    }
     let minor = Edge::new(m, "minor", prim);
     let (rest, column) = minor.next(m);
     let has_upper = prim["n1"].any().named("has_upper");
-    let minor1_rest = minor.first_rest(|f| first("minor1", f)).named("minor1_rest");
-    let enters = |f: &str| has_upper.mux(first("minor1", f), first("minor2", f));
-    let first_rest = has_upper.mux(minor1_rest, second_rest);
-    minor.rest.when(moves, exchanges.mux(idle.mux(first_rest, second.rest.q()), rest));
-    minor.own["c"].when(moves, exchanges.mux(idle.mux(enters("c"), second.own["c"].q()), column));
-    let exchanged = (exchanges & moves).named("exchanged");
-    minor.keep(exchanged, |f| idle.mux(enters(f), second.own[f].q()));
+    let minor1_rest = Edge::rest_of(|f| first("minor1", f)).named("minor1_rest");
+    match second {
+        Some(second) => {
+            let enters = |f: &str| has_upper.mux(first("minor1", f), first("minor2", f));
+            let first_rest = has_upper.mux(minor1_rest, second_rest);
+            minor.rest.when(moves, exchanges.mux(idle.mux(first_rest, second.rest.q()), rest));
+            minor.own["c"].when(moves, exchanges.mux(idle.mux(enters("c"), second.own["c"].q()), column));
+            let exchanged = (exchanges & moves).named("exchanged");
+            minor.keep(exchanged, |f| idle.mux(enters(f), second.own[f].q()));
+        }
+        None => {
+            let upper = (idle & has_upper).named_doc("upper_enters", "else the second one does");
+            let enters = |f: &str| upper.mux(first("minor1", f), first("minor2", f));
+            let rest = exchanges.mux(upper.mux(minor1_rest, second_rest), rest);
+            minor.rest.when(moves, rest);
+            minor.own["c"].when(moves, exchanges.mux(enters("c"), column));
+            minor.keep((exchanges & moves).named("exchanged"), enters);
+        }
+    }
     (minor.own["c"].q(), has_upper)
 }
 
@@ -58,42 +75,67 @@ struct Edge<'m> {
     /// R - f; below 0 the step carries.
     rest: Reg<'m>,
     carry: Signal<'m>,
-    /// All but R.
+    /// All but R, or, where the port keeps what does not step, C alone.
     own: Registers<'m>,
+    /// What the port keeps.
+    kept: Option<Token<'m>>,
 }
 
 impl<'m> Edge<'m> {
     fn new(m: &'m Module, name: &'m str, prim: &Token<'m>) -> Edge<'m> {
         let mut own = parts_of_edge(&prim.parts());
         own.retain(|part| part.name != "r");
+        Edge::of(m, name, own, None)
+    }
+
+    /// An edge whose q, f and M stay at the port.
+    fn at_port(m: &'m Module, name: &'m str, prim: &Token<'m>) -> Edge<'m> {
+        let (own, mut kept): (Vec<_>, Vec<_>) =
+            parts_of_edge(&prim.parts()).into_iter().partition(|part| part.name == "c");
+        kept.retain(|part| part.name != "r");
+        let at_port = |f: &str| prim[format!("{name}_{f}").as_str()].named(&format!("{name}_{f}"));
+        Edge::of(m, name, own, Some(Token::new(kept, at_port)))
+    }
+
+    fn of(m: &'m Module, name: &'m str, own: Vec<Part>, kept: Option<Token<'m>>) -> Edge<'m> {
         let own = Registers::new(m, name, own);
-        let bits = own["f"].q().width() + 1;
-        let rest = m.reg(&format!("{name}_rest"), bits).doc("R - f, signed: below 0 the step carries");
-        Edge { name, rest, carry: rest.q().msb(), own }
+        let f = kept.as_ref().map_or_else(|| own["f"].q(), |kept| kept["f"]);
+        let rest =
+            m.reg(&format!("{name}_rest"), f.width() + 1).doc("R - f, signed: below 0 the step carries");
+        Edge { name, rest, carry: rest.q().msb(), own, kept }
+    }
+
+    /// A part that does not step.
+    fn part(&self, name: &str) -> Option<Signal<'m>> {
+        match &self.kept {
+            Some(kept) => kept.get(name),
+            None => self.own.get(name).map(Reg::q),
+        }
     }
 
     /// R - f and the column of an edge a line further.
     fn next(&self, m: &'m Module) -> (Signal<'m>, Signal<'m>) {
-        let Edge { name, rest, carry, own } = self;
+        let Edge { name, rest, carry, own, .. } = self;
         let bits = rest.q().width();
-        let f = own["f"].q().zext(bits);
-        let rest = match own.get("m") {
+        let part = |name| self.part(name).expect("an edge has q and f");
+        let f = part("f").zext(bits);
+        let rest = match self.part("m") {
             // f first: that sum waits for nothing, and M only for the carry.
             Some(modulus) => {
                 let less = (rest.q() - f).named(&format!("{name}_less"));
-                let back = carry.mux(modulus.q().zext(bits), m.lit(bits, 0)).named(&format!("{name}_back"));
+                let back = carry.mux(modulus.zext(bits), m.lit(bits, 0)).named(&format!("{name}_back"));
                 less + back
             }
             // The modulus is 2^F, and R wraps by itself.
             None => rest.q().trunc(bits - 1).zext(bits) - f,
         };
-        let (c, q) = (own["c"].q(), own["q"].q());
+        let (c, q) = (own["c"].q(), part("q"));
         (rest, c + q + carry.zext(c.width()))
     }
 
     /// R - f of an edge with these parts at its first line.
-    fn first_rest(&self, of_prim: impl Fn(&str) -> Signal<'m>) -> Signal<'m> {
-        let bits = self.rest.q().width();
+    fn rest_of(of_prim: impl Fn(&str) -> Signal<'m>) -> Signal<'m> {
+        let bits = of_prim("f").width() + 1;
         of_prim("r").zext(bits) - of_prim("f").zext(bits)
     }
 

@@ -15,7 +15,7 @@ pub(super) struct Choices<'m> {
     pub has_upper: Signal<'m>,
 }
 
-/// The updates of the channels in `line`, and the registers of the increments for PIXEL.
+/// The updates of the channels in `line`, and the increments for PIXEL.
 pub(super) fn values<'m>(
     m: &'m Module,
     plan: &Plan,
@@ -23,7 +23,10 @@ pub(super) fn values<'m>(
     prim: &Token<'m>,
     line: &Registers<'m>,
     choices: &Choices<'m>,
-) -> Registers<'m> {
+) -> Token<'m> {
+    if let Some(walked) = walk.walked {
+        return values_at_port(m, plan, walk, walked, prim, line, choices);
+    }
     m.comment("The channels at the start of the span, their steps, and the increments for PIXEL.");
     let increments = Registers::new(m, "inc", parts(&tokens::held_by_edge(plan)));
     for name in ["kt", "record"] {
@@ -32,7 +35,7 @@ pub(super) fn values<'m>(
         }
     }
     if plan.fill == Fill::Exact {
-        m.comment("Between triangles what is added is the start: it needs no choice behind the adder.");
+        m.comment("While idle, the addend is the start value. `running ? a + b : b` costs no multiplexer: the selection fits the adder's own LUT.");
     }
     for channel in plan.channels().iter().map(|channel| channel.name) {
         let of_prim = |result: &str| prim[format!("{channel}_{result}").as_str()];
@@ -60,5 +63,30 @@ pub(super) fn values<'m>(
             }
         }
     }
-    increments
+    increments.token()
+}
+
+/// The same where the triangle stays at the port, and with it what does not step.
+fn values_at_port<'m>(
+    m: &'m Module,
+    plan: &Plan,
+    walk: &Walk<'m>,
+    walked: Signal<'m>,
+    prim: &Token<'m>,
+    line: &Registers<'m>,
+    choices: &Choices<'m>,
+) -> Token<'m> {
+    m.comment("The channels at the start of the span. Between triangles a value is 0, and what is added is the start.");
+    for channel in plan.channels().iter().map(|channel| channel.name) {
+        let at_port =
+            |result: &str| prim[format!("{channel}_{result}").as_str()].named(&format!("{channel}_{result}"));
+        let (d0, d1) = (at_port("d0"), at_port("d1"));
+        let added = walk.idle.mux(prim[format!("{channel}_start").as_str()], choices.carry.mux(d1, d0));
+        let value = line[channel];
+        let sum = value.q() + added.named(&format!("{channel}_added"));
+        value.reset(0).when(walk.moves, sum).when(walked, 0);
+    }
+    Token::new(parts(&tokens::held_by_edge(plan)), |name| {
+        prim.get(name).unwrap_or_else(|| prim[format!("{name}_g").as_str()])
+    })
 }

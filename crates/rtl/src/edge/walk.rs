@@ -24,8 +24,10 @@ pub(super) struct Walk<'m> {
     pub load: Signal<'m>,
     /// A line is accepted.
     pub step: Signal<'m>,
-    /// No triangle is being walked.
+    /// No triangle is being walked, and none that has been walked stays at the port.
     pub idle: Signal<'m>,
+    /// The triangle at the port has been walked, and stays till PIXEL has its increments; none where it does not stay.
+    pub walked: Option<Signal<'m>>,
     /// No triangle is being walked, and the next one is offered.
     pub offered: Signal<'m>,
     /// The registers of the line take a new value: the next line, or the first of a triangle that is offered.
@@ -41,28 +43,21 @@ pub(super) struct Walk<'m> {
 impl<'m> Walk<'m> {
     /// The registers of the walk.
     pub fn new(m: &'m Module, plan: &Plan, links: &Links<'m>, prim: &Token<'m>) -> Walk<'m> {
-        let Links { prim_valid, line_ready, fresh_queued } = *links;
-        m.comment("A triangle is taken when the one before is walked and PIXEL has its increments.");
-        let running = m.reg("running", 1).reset(0);
-        let last = m.reg("last", 1).doc("last line of all");
-        let prim_ready = (!running.q() & !fresh_queued).named("prim_ready");
-        let load = (prim_valid & prim_ready).named("load");
-        let step = (running.q() & line_ready).named("step");
-        m.comment("Between triangles everything takes the next one as soon as it is there, and again till PIXEL has the increments: no enable waits for that.");
-        let idle =
-            m.reg("idle", 1).doc("not running: for what is loaded, as running is for the values").reset(1);
-        let at_end = (step & last.q()).named("at_end");
-        running.when(at_end, 0).when(load, 1);
-        idle.when(at_end, 1).when(load, 0);
-        let idle = idle.q();
-        let offered = (idle & prim_valid).named_doc("offered", "the next triangle is there");
-        let moves = idle.mux(prim_valid, line_ready).named("moves");
+        let Links { prim_valid, line_ready, .. } = *links;
+        let start = if plan.is_sequenced() { Start::staying(m, links) } else { Start::moving(m, links) };
+        let Start { running, last, prim_ready, load, step, idle, walked } = start;
+        let offered = match walked {
+            Some(_) => load,
+            None => (idle & prim_valid).named_doc("offered", "the next triangle is there"),
+        };
+        let goes_on = if walked.is_some() { step } else { line_ready };
+        let moves = idle.mux(prim_valid, goes_on).named("moves");
 
         m.comment("Where in the triangle: the upper part, then the lower.");
         let n1 = m.reg("n1", prim["n1"].width()).doc("lines left of the upper part");
         let n2 = m.reg("n2", prim["n2"].width()).doc("lines left of the lower part");
         let exchanges =
-            m.reg("exchanges", 1).doc("idle, or at the knee: another minor edge comes, and no step").reset(1);
+            m.reg("exchanges", 1).doc("idle, or at the knee: the minor edge is loaded, not stepped").reset(1);
         let parts = Parts { of_line: [n1, n2].map(Reg::q), of_prim: [prim["n1"], prim["n2"]] };
         let Place { upper, first_knee, next_knee } = Place::new(m, last, &parts, idle, moves);
         exchanges.when(moves, idle.mux(!load | first_knee, last.q() | next_knee));
@@ -76,8 +71,56 @@ impl<'m> Walk<'m> {
             Fill::Exact => moves,
             Fill::Textbook => idle.mux(prim_valid, line_ready & !exchanges).named("line_done"),
         };
-        let running = running.q();
-        Walk { running, prim_ready, load, step, idle, offered, moves, upper, exchanges, line_done }
+        Walk { running, prim_ready, load, step, idle, walked, offered, moves, upper, exchanges, line_done }
+    }
+}
+
+/// When a triangle begins, and when the next one may come.
+struct Start<'m> {
+    running: Signal<'m>,
+    last: Reg<'m>,
+    prim_ready: Signal<'m>,
+    load: Signal<'m>,
+    step: Signal<'m>,
+    idle: Signal<'m>,
+    walked: Option<Signal<'m>>,
+}
+
+impl<'m> Start<'m> {
+    /// A triangle moves in, and its registers are EDGE's.
+    fn moving(m: &'m Module, links: &Links<'m>) -> Start<'m> {
+        let Links { prim_valid, line_ready, fresh_queued } = *links;
+        m.comment("A triangle is taken when the one before is walked and PIXEL has its increments.");
+        let running = m.reg("running", 1).reset(0);
+        let last = m.reg("last", 1).doc("last line of all");
+        let prim_ready = (!running.q() & !fresh_queued).named("prim_ready");
+        let load = (prim_valid & prim_ready).named("load");
+        let step = (running.q() & line_ready).named("step");
+        m.comment("Between triangles the registers load the next triangle in every clock until PIXEL has taken the increments, so they need no enable.");
+        let idle = m.reg("idle", 1).doc("not running; selects what the registers load").reset(1);
+        let at_end = (step & last.q()).named("at_end");
+        running.when(at_end, 0).when(load, 1);
+        idle.when(at_end, 1).when(load, 0);
+        Start { running: running.q(), last, prim_ready, load, step, idle: idle.q(), walked: None }
+    }
+
+    /// A triangle stays at the port while it is walked: SETUP keeps what does not step.
+    fn staying(m: &'m Module, links: &Links<'m>) -> Start<'m> {
+        let Links { prim_valid, line_ready, fresh_queued } = *links;
+        m.comment("A triangle is taken when it is walked and PIXEL has its increments; until then EDGE reads SETUP's registers.");
+        let running = m.reg("running", 1).reset(0);
+        let last = m.reg("last", 1).doc("last line of all");
+        let step = (running.q() & line_ready).named("step");
+        let at_end = (step & last.q()).named("at_end");
+        let walked = m.reg("walked", 1).doc("the triangle is walked, and not taken yet").reset(0);
+        let idle = m.reg("idle", 1).doc("neither running nor walked").reset(1);
+        let prim_ready = (walked.q() & !fresh_queued).named("prim_ready");
+        let load = (idle.q() & prim_valid).named("load");
+        running.when(at_end, 0).when(load, 1);
+        walked.when(at_end, 1).when(prim_ready, 0);
+        idle.when(load, 0).when(prim_ready, 1);
+        let walked = Some(walked.q());
+        Start { running: running.q(), last, prim_ready, load, step, idle: idle.q(), walked }
     }
 }
 

@@ -8,9 +8,9 @@ use crate::roots::Roots;
 
 /// A point beside the axis.
 pub(super) struct Beside<'m> {
-    /// Its place in table C, 2^-16.
+    /// Place in table C, 2^-16.
     pub place: Signal<'m>,
-    /// It lies outside the cone.
+    /// The fragment lies outside the cone.
     pub dark: Signal<'m>,
 }
 

@@ -19,7 +19,7 @@ pub(super) struct Links<'m> {
 pub(super) struct Steps<'m> {
     /// A fragment is inside.
     pub busy: Signal<'m>,
-    /// Its steps are not all done.
+    /// The fragment's steps are not all done.
     pub working: Signal<'m>,
     pub normed_valid: Signal<'m>,
     pub frag_ready: Signal<'m>,
@@ -46,7 +46,7 @@ impl<'m> Steps<'m> {
         Steps { busy: busy.q(), working, normed_valid, frag_ready, step, kept }
     }
 
-    /// It is this step.
+    /// The step is the one of this number.
     pub fn at(&self, number: i32) -> Signal<'m> {
         self.step.q().eq(number)
     }

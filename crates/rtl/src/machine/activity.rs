@@ -46,13 +46,13 @@ impl<'m> Joined<'m> {
         self.find(name).expect("SPAN, PIXEL and DEPTH are in every machine")
     }
 
-    /// The same; `None` if the machine has no unit that tells it.
+    /// The status of this name, from any unit; `None` if the machine has no unit that tells it.
     fn find(&self, name: &str) -> Option<Signal<'m>> {
         let told = (0..self.0.len()).filter_map(|place| self.told(place, name));
         told.reduce(|any, one| any | one)
     }
 
-    /// What a unit tells, 0 while it means nothing; `None` if it does not tell this.
+    /// A unit's status, 0 while it is don't care; `None` if the unit has no such status.
     fn told(&self, place: usize, name: &str) -> Option<Signal<'m>> {
         let unit = &self.0[place];
         let status = unit.status(name)?;

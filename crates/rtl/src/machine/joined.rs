@@ -8,7 +8,7 @@ use crate::wires::{Token, parts};
 
 /// One unit in its place.
 pub(super) struct Unit<'m> {
-    /// Its ports on the module of the machine, for those that are ports of the machine.
+    /// Ports of the unit on the machine's module that are also ports of the machine.
     pub outside: Interface<'m>,
     pub instance: Instance<'m>,
 }
@@ -136,7 +136,7 @@ impl<'m> Joined<'m> {
 }
 
 impl<'m> Unit<'m> {
-    /// Its status of that name.
+    /// The status of that name.
     pub fn status(&self, name: &str) -> Option<&Status> {
         self.outside.ports.status.iter().find(|status| status.field.name == name)
     }

@@ -48,7 +48,7 @@ fn steps<'m>(m: &'m Module, plan: &Plan, advance: Signal<'m>, first: Step<'m>) -
 
 /// A segment of a channel's word.
 pub(super) struct Segment<'m> {
-    /// Its lowest bit in the word.
+    /// Lowest bit of the segment in the word.
     low: u32,
     value: Reg<'m>,
     inc: Reg<'m>,

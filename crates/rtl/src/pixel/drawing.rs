@@ -28,7 +28,7 @@ pub(super) struct Drawing<'m> {
     /// Column and line of the pixel.
     pub x: Signal<'m>,
     pub y: Signal<'m>,
-    /// That of the next fragment.
+    /// Fence of the next fragment.
     pub fence: Signal<'m>,
     /// What goes with the fragments as the span has it.
     pub drawn: Registers<'m>,

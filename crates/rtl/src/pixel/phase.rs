@@ -5,7 +5,7 @@ use edgewalk_netlist::{Module, Reg, Signal};
 /// Counts the clocks of a pixel, 0 to T - 1.
 pub(super) struct Phase<'m> {
     pub counter: Reg<'m>,
-    /// It is T - 1.
+    /// The phase is T - 1.
     pub last: Signal<'m>,
     /// After T - 1 the counter is 0 of itself.
     wraps: bool,

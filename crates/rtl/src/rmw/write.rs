@@ -56,11 +56,11 @@ impl<'m> Write<'m> {
         for (valid, way) in self.ways.iter().zip(ways) {
             valid.when(way.ready, 0).when(when, way.wanted);
         }
-        // What leaves by no way means nothing, and a free w takes what there is: so what decides leads to these flags only.
+        // A write that leaves by no way is don't care, and a free w takes any: so the decision leads to these flags only.
         self.fields.load(free, value);
     }
 
-    /// It has still to leave by this way.
+    /// The write has still to leave by this way.
     pub fn valid(&self, way: usize) -> Reg<'m> {
         self.ways[way]
     }

@@ -11,9 +11,9 @@ use super::top::top;
 pub(super) struct Area<'m> {
     /// du1·dv2 - du2·dv1, 1/P² px², signed.
     pub signed: Signal<'m>,
-    /// It is below 0: the major edge lies right.
+    /// The area is below 0: the major edge lies right.
     pub negative: Signal<'m>,
-    /// It is summed up.
+    /// The area is summed up.
     pub adds: Signal<'m>,
     /// In the last clock of that.
     pub ends: Signal<'m>,

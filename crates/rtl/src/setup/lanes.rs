@@ -92,7 +92,7 @@ impl<'a, 'm> Common<'a, 'm> {
         factors: &'a Factors<'m>,
         right: Signal<'m>,
     ) -> Common<'a, 'm> {
-        m.comment("What all lanes do.");
+        m.comment("Commands of all lanes.");
         let code = |step: Step| m.lit(Step::BITS, step as u128);
         let these = |which: &dyn Fn(Op) -> bool| Op::all(plan).filter(|op| which(*op)).collect::<Vec<_>>();
         let steps = |step: Step| these(&|op| op.doing().step == step);

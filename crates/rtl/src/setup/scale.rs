@@ -34,8 +34,10 @@ impl<'m> Scale<'m> {
             m.reg("differences", longest_value(plan)).doc("their bits, or those of complements");
         let scaled = m.reg("scaled", bits).doc("-M or -M - 1, signed");
         let taken = m.reg("scale_taken", 1).doc("the area is taken");
-        let scaling = m.reg("scaling", 1).doc("it is compared");
-        let i = m.reg("scale_next", control.feedback.scale.q().width()).doc("times that it is fourfold");
+        let scaling = m.reg("scaling", 1).doc("the scaled modulus is compared with the differences");
+        let i = m
+            .reg("scale_next", control.feedback.scale.q().width())
+            .doc("how many times the modulus is multiplied by 4");
         let mut takes = area.ends;
         if let Some(last) = control.way.named.in_round(rounds - 1) {
             let behind_gradient =

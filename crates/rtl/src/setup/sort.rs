@@ -56,12 +56,12 @@ impl<'m> Vertices<'m> {
             });
         }
         let order = |place: usize| {
-            let vertex = m.reg(&format!("p{place}_vertex"), 2).doc("whose values are those at this place");
+            let vertex = m.reg(&format!("p{place}_vertex"), 2).doc("the vertex at this place: 0, 1 or 2");
             vertex.when(control.sequence.take, m.cat(&[is_at(place, 2), is_at(place, 1)])).q()
         };
         let order = (0..3).map(order).collect();
 
-        m.comment("The values at the vertices, as they came.");
+        m.comment("Values at the vertices, as tri has them.");
         let values: Vec<Registers> =
             (0..3).map(|vertex| Registers::new(m, &format!("vertex{vertex}"), values(plan))).collect();
         for (vertex, registers) in values.iter().enumerate() {
@@ -109,7 +109,7 @@ fn corner(plan: &Plan) -> Vec<Part> {
     ["u", "v"].map(|name| Part { name: name.to_owned(), width: w.center, doc: center.clone() }).into()
 }
 
-/// Its values, one a channel.
+/// Values of a vertex, one a channel.
 fn values(plan: &Plan) -> Vec<Part> {
     let value = |channel: &Channel| Part {
         name: channel.name.to_owned(),

@@ -200,7 +200,7 @@ impl Op {
         }
     }
 
-    /// It is one of those on edges.
+    /// Whether the step belongs to the rounds of edges.
     pub fn is_of_edge(self, plan: &Plan) -> bool {
         Op::of_edges(plan).contains(&self)
     }

@@ -49,7 +49,7 @@ impl<'m> Values<'m> {
         vertices: &Vertices<'m>,
         area: &Area<'m>,
     ) -> Values<'m> {
-        m.comment("What the lanes are shown in the next clock.");
+        m.comment("Inputs of the lanes in the next clock.");
         let (named, right) = (&control.way.named, area.negative);
         let place = |number: u128| m.lit(2, number);
         // Values of an edge are tested while nothing else is to be shown; of textbook fill those of channels

@@ -10,7 +10,7 @@ pub(super) struct Place<'m> {
     x: Reg<'m>,
     y: Reg<'m>,
     leftward: Signal<'m>,
-    /// It is the span's first.
+    /// The pixel is the span's first.
     pub reached: Signal<'m>,
     /// The next step, where it is not: of these one, or else back.
     pub down: Signal<'m>,
@@ -38,7 +38,7 @@ impl<'m> Place<'m> {
         Place { x, y, leftward, reached, down, forward }
     }
 
-    /// It goes on when a step is done, and to the reference pixel of a record.
+    /// The place goes on when a step is done, and to the reference pixel of a record.
     pub fn step(&self, stepped: Signal<'m>, record: &Record<'m>) {
         let right =
             (self.forward ^ self.leftward).named_doc("rightward", "direction of a step along the line");

@@ -45,7 +45,7 @@ pub(super) struct Record<'m> {
 }
 
 impl<'m> Record<'m> {
-    /// It is read when a triangle's first span is offered.
+    /// The record is read when a triangle's first span is offered.
     pub fn new(m: &'m Module, plan: &Plan, terms: &FromMemory<'m>, fresh_offered: Signal<'m>) -> Record<'m> {
         m.comment("Record: one read request a clock; words are loaded as they arrive.");
         let (length, bits) = (plan.record_length(), plan.record_place_bits());

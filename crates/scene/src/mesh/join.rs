@@ -8,7 +8,7 @@ use glam::DAffine3;
 /// A mesh in its place.
 pub(crate) struct Part {
     pub mesh: Mesh,
-    /// Its own space to world space; not singular.
+    /// Transform from the part's space to world space; not singular.
     pub placed: DAffine3,
     /// Of all its faces, instead of its own materials.
     pub material: Option<Material>,

@@ -18,9 +18,9 @@ const LEAF: usize = 16;
 /// A face at the vertex.
 #[derive(Clone, Copy)]
 pub(super) struct Member {
-    /// Its normal; zero for a face without area.
+    /// Normal of the face; zero for a face without area.
     pub normal: DVec3,
-    /// Its smoothing group.
+    /// Smoothing group of the face.
     pub group: u32,
     /// What it counts.
     pub weight: f64,
@@ -28,9 +28,9 @@ pub(super) struct Member {
 
 /// The faces at the vertex.
 pub(super) enum Crowd {
-    /// Those within an angle are one surface: its cosine.
+    /// Faces within an angle are one surface: its cosine.
     ByAngle(f64, Tree),
-    /// Those of a group are: the sum of each.
+    /// Faces of a group are one surface: the sum of each.
     ByGroup(HashMap<u32, DVec3>),
 }
 

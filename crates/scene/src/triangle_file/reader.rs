@@ -181,9 +181,9 @@ struct Parser {
     header: Header,
     /// The line of the last triangle, if its values of the user's own are still to come.
     open: Option<usize>,
-    /// The same of its normals.
+    /// The line of the last triangle, if its normals are still to come.
     bare: Option<usize>,
-    /// The same of its texture coordinates.
+    /// The line of the last triangle, if its texture coordinates are still to come.
     unplaced: Option<usize>,
     /// The largest number behind `light`, and its line.
     light: Option<(usize, usize)>,

@@ -41,7 +41,7 @@ pub(super) struct Header {
     specular: Option<Specular>,
     /// Of the triangles to come, none of which has come.
     material: Option<Material>,
-    /// Its texture.
+    /// Texture of the material.
     texture: Option<Arc<Image>>,
 }
 

@@ -47,7 +47,7 @@ pub enum Outcome {
     Mismatch {
         /// Tokens and status changes that came.
         checked: u64,
-        /// Those that should have come.
+        /// Tokens that should have come.
         expected: u64,
         /// What the test bench says first.
         lines: Vec<String>,
@@ -85,16 +85,24 @@ pub fn simulate(
         Simulator::Icarus => {
             let program = work.join("tb.vvp");
             let mut compile = Command::new("iverilog");
-            compile.args(["-g2001", "-s", "tb", "-c", "filelist.f", "-o"]).arg(&program);
+            compile.arg(format!("-g{}", standard(&manifest)));
+            compile.args(["-s", "tb", "-c", "filelist.f", "-o"]).arg(&program);
             run(compile.current_dir(directory), limit)?;
             run(Command::new("vvp").arg("-n").arg(&program).current_dir(directory), limit)?
         }
         Simulator::Verilator => {
             let objects = work.join("obj_dir");
             let mut compile = Command::new("verilator");
-            compile.args(["--binary", "--timing", "-O3", "--top-module", "tb", "-f", "filelist.f", "--Mdir"]);
+            compile.args(["--binary", "--timing", "-O3", "--top-module", "tb", "-f", "filelist.f"]);
+            if manifest.dut.is_some() {
+                // A foreign file may lack `timescale, or draw warnings: lint is where they count.
+                compile.args(["-Wno-fatal", "--timescale", "1ns/1ps"]);
+            }
             // The C++ runs for a moment only: to optimise it takes longer.
-            compile.arg(&objects).args(["-MAKEFLAGS", "OPT_FAST=-O0 OPT_SLOW=-O0 OPT_GLOBAL=-O0"]);
+            compile
+                .arg("--Mdir")
+                .arg(&objects)
+                .args(["-MAKEFLAGS", "OPT_FAST=-O0 OPT_SLOW=-O0 OPT_GLOBAL=-O0"]);
             run(compile.current_dir(directory), limit)?;
             run(Command::new(objects.join("Vtb")).current_dir(directory), limit)?
         }
@@ -105,6 +113,12 @@ pub fn simulate(
     })?)
 }
 
+/// The year of the language's standard that the design needs.
+fn standard(manifest: &Manifest) -> &'static str {
+    let newer = manifest.dut.iter().flat_map(|dut| &dut.files).any(|file| file.ends_with(".sv"));
+    if newer { "2012" } else { "2001" }
+}
+
 /// The design's files pass `verilator --lint-only -Wall`.
 ///
 /// # Errors
@@ -112,7 +126,15 @@ pub fn simulate(
 pub fn lint(directory: &Path, limit: Duration) -> Result<(), SimulateError> {
     let manifest = read(|name| std::fs::read(directory.join(name)))?.manifest;
     let mut command = Command::new("verilator");
-    command.args(["--lint-only", "-Wall", "--top-module", &manifest.module]).args(hdl(&manifest));
+    command.args(["--lint-only", "-Wall"]);
+    match &manifest.dut {
+        None => command.args(["--top-module", &manifest.module]).args(hdl(&manifest)),
+        Some(dut) => {
+            command.args(dut.include.iter().map(|folder| format!("-I{folder}")));
+            command.args(dut.parameters.iter().map(|(name, value)| format!("-G{name}={value}")));
+            command.args(["--top-module", &dut.top]).args(&dut.files)
+        }
+    };
     let text = run(command.current_dir(directory), limit)?;
     match text.trim().is_empty() {
         true => Ok(()),

@@ -74,7 +74,7 @@ pub struct Suite {
 
 /// A suite that comes with the program.
 pub struct Entry {
-    /// Its name.
+    /// Name of the suite.
     pub name: &'static str,
     /// What it is for.
     pub about: &'static str,
@@ -115,7 +115,7 @@ const fn function(name: &'static str, about: &'static str, depth_func: u8, depth
 }
 
 impl Entry {
-    /// It says something about this machine.
+    /// Whether the suite says something about this machine.
     #[must_use]
     pub fn is_for(&self, machine: &Plan) -> bool {
         match self.kind {
@@ -308,7 +308,7 @@ impl Suite {
         }
     }
 
-    /// It says something about the unit.
+    /// Whether the suite says something about the unit.
     #[must_use]
     pub fn is_for(&self, unit: Unit) -> bool {
         self.units.is_empty() || self.units.contains(&unit)
@@ -336,7 +336,22 @@ impl Suite {
         joined
     }
 
-    /// The same on a depth of half of full scale instead of full scale: then `greater` passes too.
+    /// The cases of these names alone, with the records of their triangles, in the suite's order.
+    #[must_use]
+    pub fn only(mut self, names: &[String]) -> Suite {
+        let wanted = |case: &Case| names.contains(&case.name);
+        if let Some(records) = self.words.get(words::RECORDS) {
+            let each = (records.len() / self.triangles().count().max(1)).max(1);
+            let of = self.cases.iter().flat_map(|case| case.triangles.iter().map(|_| wanted(case)));
+            let kept = records.chunks(each).zip(of).filter(|(_, wanted)| *wanted);
+            let kept: Vec<u128> = kept.flat_map(|(record, _)| record.iter().copied()).collect();
+            self.words.insert(words::RECORDS, kept.into());
+        }
+        self.cases.retain(wanted);
+        self
+    }
+
+    /// The suite on a depth of half of full scale instead of full scale: then `greater` passes too.
     #[must_use]
     pub fn on_half_depth(self, machine: &Plan) -> Suite {
         Suite { clear_z: Some(machine.z.max().div_ceil(2)), ..self }

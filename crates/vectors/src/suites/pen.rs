@@ -43,7 +43,7 @@ impl<'a> Pen<'a> {
         self.glass(at, shares, kt)
     }
 
-    /// The same with this k_t.
+    /// Like `vertex`, with this k_t.
     pub fn glass(&self, at: (f64, f64), shares: [f64; 4], kt: f64) -> PortVertex {
         let channels = self.machine.channels().iter().zip(shares.into_iter().cycle());
         let values = channels.map(|(channel, share)| {
@@ -77,7 +77,7 @@ impl<'a> Pen<'a> {
         self.seen(at, shares, [x / side, y / side, d / depth, 1.0].map(|quotient| quotient * self.weight()))
     }
 
-    /// The same with these light-space values, LSB.
+    /// Like `lit`, with these light-space values, LSB.
     pub fn seen(&self, at: (f64, f64), shares: [f64; 4], light: [f64; 4]) -> PortVertex {
         let channels = self.machine.channels().iter().zip(shares.into_iter().cycle());
         let values = channels.map(|(channel, share)| {
@@ -126,7 +126,7 @@ impl<'a> Pen<'a> {
         self.level([(column, line), (column + 1.5, line), (column, line + 1.5)], z)
     }
 
-    /// The same with this k_t.
+    /// Like `dot`, with this k_t.
     pub fn glass_dot(&self, column: f64, line: f64, z: f64, kt: f64) -> Triangle {
         let at = [(column, line), (column + 1.5, line), (column, line + 1.5)];
         std::array::from_fn(|i| {

@@ -21,7 +21,7 @@ enum Tie {
     Start,
     /// The step with a carry, where the remainders of step and gradient sum to half the area.
     Half,
-    /// The same, where they sum to one and a half.
+    /// Like `Half`, where they sum to one and a half.
     ThreeHalves,
 }
 

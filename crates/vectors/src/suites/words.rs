@@ -85,7 +85,7 @@ fn steepest(machine: &Plan, texels: &mut [u128]) {
     }
 }
 
-/// That of triangle number k: reference pixel on the screen or beside it, most of them of the first material.
+/// The record of triangle number k: reference pixel on the screen or beside it, most of them of the first material.
 fn record(machine: &Plan, seed: u64, k: usize) -> Record {
     let mut random = Pcg64Mcg::seed_from_u64(seed << 32 ^ k as u64);
     let last = (1u32 << machine.shade.material_bits) - 1;

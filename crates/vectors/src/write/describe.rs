@@ -1,10 +1,12 @@
 //! The manifest of a trace.
 
+use super::dut;
 use super::{
     Files, Tables, cycle_file, is_served, known, params, patterns, start_file, status_fields, table_file,
     token_file, triangle_file, willing_file,
 };
 use crate::capture::Trace;
+use crate::dut::Wiring;
 use crate::manifest::{
     CaseInfo, Channel, Compare, FORMAT, Field, File, Handshake, MachineInfo, Manifest, Memory, MemoryWrite,
     Radix, SideInput, Stalls, Status, SuiteInfo, VERSION,
@@ -17,10 +19,17 @@ use sha2::{Digest, Sha256};
 use std::collections::BTreeMap;
 
 /// The manifest of a directory with these other files.
-pub(super) fn manifest(suite: &Suite, trace: &Trace, files: &Files, tables: Tables) -> Manifest {
+pub(super) fn manifest(
+    suite: &Suite,
+    trace: &Trace,
+    wiring: Option<&Wiring>,
+    files: &Files,
+    tables: Tables,
+) -> Manifest {
     let interface = &trace.interface;
     let constants = interface.constants.iter().zip(&trace.setting.constants);
     let reached = reached(trace);
+    let by_order = wiring.is_some_and(|wiring| wiring.dut.compare == crate::dut::Compare::Order);
     let table = |name: &str| (tables == Tables::Written).then(|| table_file(name));
     Manifest {
         format: FORMAT.to_owned(),
@@ -33,15 +42,16 @@ pub(super) fn manifest(suite: &Suite, trace: &Trace, files: &Files, tables: Tabl
         },
         unit: interface.unit.name().to_owned(),
         module: interface.unit.module(),
-        handshake: handshake(),
+        dut: wiring.map(|wiring| dut::info(interface, wiring)),
+        handshake: handshake(wiring),
         rounding: ROUNDING.map(str::to_owned).to_vec(),
         constants: constants.map(|(field, value)| (field.name.clone(), *value as u64)).collect(), // a few bits
         stalls: stalls(trace),
         memories: memories(trace),
         side_inputs: side_inputs(interface),
-        limits: params::limits(trace),
+        limits: params::limits(trace, wiring),
         radix: Radix { mem: 16, patterns: 2 },
-        channels: channels(trace, table),
+        channels: channels(trace, by_order, table),
         status: Status {
             fields: packed(&status_fields(interface)),
             optional: interface.status.iter().map(|status| status.port.name.clone()).collect(),
@@ -52,7 +62,7 @@ pub(super) fn manifest(suite: &Suite, trace: &Trace, files: &Files, tables: Tabl
             table: table("status"),
         },
         cycles: trace.cycles,
-        expected: trace.expected(),
+        expected: if by_order { trace.tokens_out() } else { trace.expected() },
         not_covered: not_covered([&reached]).into_iter().map(str::to_owned).collect(),
         coverage: reached.into_iter().map(|(name, count)| (name.to_owned(), count)).collect(),
         files: files.iter().map(|(name, bytes)| file(name, bytes)).collect(),
@@ -88,11 +98,17 @@ const ROUNDING: [&str; 4] = [
     "outputs: floor to b bits; first values already hold half an LSB",
 ];
 
-fn handshake() -> Handshake {
+/// Clock and reset of our own design.
+fn ours() -> (String, String) {
+    ("clk, rising edge".to_owned(), "rst, synchronous, active high".to_owned())
+}
+
+fn handshake(wiring: Option<&Wiring>) -> Handshake {
+    let (clock, reset) = wiring.map_or_else(ours, dut::clock_and_reset);
     Handshake {
         kind: "valid/ready: a token moves in a cycle where both are high".to_owned(),
-        clock: "clk, rising edge".to_owned(),
-        reset: "rst, synchronous, active high".to_owned(),
+        clock,
+        reset,
         cycle_zero: "the first cycle with rst low".to_owned(),
         rules: vec![
             "a valid does not wait for its ready".to_owned(),
@@ -128,7 +144,7 @@ fn side_inputs(interface: &Interface) -> Vec<SideInput> {
     interface.levels.iter().map(side_input).collect()
 }
 
-fn channels(trace: &Trace, table: impl Fn(&str) -> Option<String>) -> Vec<Channel> {
+fn channels(trace: &Trace, by_order: bool, table: impl Fn(&str) -> Option<String>) -> Vec<Channel> {
     let known: Vec<&str> = known(trace).collect();
     let entered: BTreeMap<u32, u64> = trace.links.first().map(first_of_each).unwrap_or_default();
     let interface = trace.interface.links.iter().zip(&trace.links);
@@ -143,7 +159,11 @@ fn channels(trace: &Trace, table: impl Fn(&str) -> Option<String>) -> Vec<Channe
             Channel {
                 name: channel.name.to_owned(),
                 direction: if channel.direction == Direction::In { "in" } else { "out" }.to_owned(),
-                compare: if channel.direction == Direction::In { Compare::Driven } else { Compare::Cycle },
+                compare: match channel.direction {
+                    Direction::In => Compare::Driven,
+                    Direction::Out if by_order => Compare::Exact,
+                    Direction::Out => Compare::Cycle,
+                },
                 order: if from_memory { "of the reads" } else { "of the tokens" }.to_owned(),
                 width: channel.width(),
                 fields: packed(&channel.fields),

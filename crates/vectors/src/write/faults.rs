@@ -2,6 +2,7 @@
 
 use crate::suites::Suite;
 use edgewalk_lockstep::Port;
+use edgewalk_machine::Scale;
 use std::fmt::Write as _;
 
 /// Verilog that tells what a channel's sink found, in full and field by field; `suffix` is that of the wire which holds the
@@ -53,9 +54,17 @@ pub fn telling(name: &str, suffix: &str, fields: &[Port], known: bool) -> String
         high -= field.width();
         let (want, is) = (format!("{name}_want{bits}"), format!("{found}{bits}"));
         let sign = if field.is_signed() { "$signed" } else { "" };
+        let shown = |value: &str| match real(field) {
+            None => ("%h (%0d)".to_owned(), format!("{value}, {sign}({value})")),
+            Some((scale, unit)) => {
+                let number = format!("{sign}({value})");
+                (format!("%h (%0d, %0.7g{unit})"), format!("{value}, {number}, (1.0 * {number}) / {scale:e}"))
+            }
+        };
+        let ((form, wanted), (_, found)) = (shown(&want), shown(&is));
         let _ = writeln!(
             text,
-            "            if ({is} !== {want})\n                $display(\"    {}: expected %h (%0d), found %h (%0d)\", {want}, {sign}({want}), {is}, {sign}({is}));",
+            "            if ({is} !== {want})\n                $display(\"    {}: expected {form}, found {form}\", {wanted}, {found});",
             field.name
         );
     }
@@ -69,6 +78,22 @@ pub fn telling(name: &str, suffix: &str, fields: &[Port], known: bool) -> String
 "#
     );
     text
+}
+
+/// How the real value of a field follows from its number: what to divide by, and the unit; `None` where the number is the
+/// value, and where it is too long for the simulators' conversion.
+fn real(field: &Port) -> Option<(f64, String)> {
+    let format = field.field.format;
+    if field.width() > 64 {
+        return None;
+    }
+    match field.field.scale {
+        Scale::Count => None,
+        Scale::Unorm => Some((format.max_raw() as f64, String::new())),
+        Scale::Of(unit) | Scale::Modular(unit) => {
+            Some((f64::from(format.fraction_bits()).exp2(), format!(" {unit}").trim_end().to_owned()))
+        }
+    }
 }
 
 /// `cases.vh`: the name of the case that a triangle belongs to, as a function.

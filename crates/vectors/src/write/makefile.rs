@@ -1,44 +1,95 @@
 //! `filelist.f` and `Makefile`: run from inside the directory, no path leaves it.
 
-/// The files for a simulator, relative to the directory, test bench last.
-#[must_use]
-pub fn filelist(hdl: &[String]) -> String {
-    let mut text = String::from("+incdir+.\n");
-    for file in hdl.iter().cloned().chain(bench().map(str::to_owned)) {
-        text.push_str(&file);
-        text.push('\n');
+use crate::dut::{Compare, Dut};
+
+/// The design that a directory is for.
+pub struct Sources<'a> {
+    /// The top module.
+    pub top: &'a str,
+    /// The design's files.
+    pub hdl: Vec<String>,
+    /// A user's design: what else is to be known of it.
+    pub dut: Option<&'a Dut>,
+}
+
+impl Sources<'_> {
+    /// The files for a simulator, relative to the directory, test bench last.
+    pub fn filelist(&self) -> String {
+        let include = self.dut.into_iter().flat_map(|dut| &dut.include);
+        let include = include.map(|folder| format!("+incdir+{}", folder.display()));
+        let bench = self.bench().into_iter().map(str::to_owned);
+        let lines =
+            ["+incdir+.".to_owned()].into_iter().chain(include).chain(self.hdl.iter().cloned()).chain(bench);
+        lines.map(|line| line + "\n").collect()
     }
-    text
+
+    /// The files of the test bench, itself last.
+    fn bench(&self) -> Vec<&'static str> {
+        let own = self.dut.map(|_| super::testbench::OWN_MODULE.0);
+        super::testbench::MODULES.into_iter().map(|(name, _)| name).chain(own).chain(["tb.v"]).collect()
+    }
+
+    /// The Makefile.
+    pub fn makefile(&self) -> String {
+        let text = ["iverilog", "verilator"].iter().fold(MAKEFILE.to_owned(), |text, tool| {
+            text.replace(&format!("{{{tool}}}"), edgewalk_tool::install(tool).unwrap_or_default())
+        });
+        let (head, timing, choice, defines) = match self.dut {
+            None => (ANOTHER, CYCLES, CHOICE, "$(DEFINES) "),
+            Some(_) => (OWN, "", "", ""),
+        };
+        text.replace("{head}", head)
+            .replace("{timing}", timing)
+            .replace("{choice}", choice)
+            .replace("{defines}", defines)
+            .replace("{standard}", self.dut.map_or("2001", Dut::standard))
+            .replace("{include}", &self.dut.map(include).unwrap_or_default())
+            .replace("{parameters}", &self.dut.map(parameters).unwrap_or_default())
+            .replace(
+                "{how}",
+                match self.dut.map(|dut| dut.compare) {
+                    Some(Compare::Order) => "order and values count",
+                    _ => "order, values, cycles and status ports count",
+                },
+            )
+            .replace("{top}", self.top)
+            .replace("{hdl}", &self.hdl.join(" "))
+            .replace("{bench}", &self.bench().join(" "))
+    }
 }
 
-/// The files of the test bench, itself last.
-fn bench() -> impl Iterator<Item = &'static str> {
-    super::testbench::MODULES.into_iter().map(|(name, _)| name).chain(["tb.v"])
+/// Folders for include lines, as options of both simulators.
+fn include(dut: &Dut) -> String {
+    dut.include.iter().map(|folder| format!(" -I{}", folder.display())).collect()
 }
 
-/// The Makefile; `top` is the module under test, `hdl` its files.
-#[must_use]
-pub fn makefile(top: &str, hdl: &[String]) -> String {
-    let bench: Vec<&str> = bench().collect();
-    let text = ["iverilog", "verilator"].iter().fold(MAKEFILE.to_owned(), |text, tool| {
-        text.replace(&format!("{{{tool}}}"), edgewalk_tool::install(tool).unwrap_or_default())
-    });
-    text.replace("{top}", top).replace("{hdl}", &hdl.join(" ")).replace("{bench}", &bench.join(" "))
+/// Parameters of the top module, for Verilator's lint.
+fn parameters(dut: &Dut) -> String {
+    dut.parameters.iter().map(|(name, value)| format!(" '-G{name}={}'", value.replace('$', "$$"))).collect()
 }
 
-const MAKEFILE: &str = r#"# Targets: icarus, verilator, lint, clean. Each run fails unless the test bench prints PASS.
-#   make icarus HDL="mine.v other.v"   another design with the same ports: these files are compiled, and no other design
+/// The head of a Makefile for our own design.
+const ANOTHER: &str = r#"#   make icarus HDL="mine.v other.v"   another design with the same ports: these files are compiled, and no other design
 #   make icarus CHECK_CYCLES=0         a design with other timing: order and values count, its status ports are not needed
-HDL = {hdl}
-BENCH = {bench}
-CHECK_CYCLES = 1
-SHA256SUM = sha256sum
+"#;
 
+/// Of a user's design.
+const OWN: &str = "# The design is wired to the test bench by its description; {how}.\n";
+
+/// Whether cycles count can be chosen for a design with the ports of ours.
+const CYCLES: &str = "CHECK_CYCLES = 1\n";
+const CHOICE: &str = r"
 ifeq ($(filter 0 1,$(CHECK_CYCLES)),)
 $(error CHECK_CYCLES=$(CHECK_CYCLES): 0 or 1)
 endif
 DEFINES = $(if $(filter 0,$(CHECK_CYCLES)),-DORDER_ONLY)
+";
 
+const MAKEFILE: &str = r#"# Targets: icarus, verilator, lint, clean. Each run fails unless the test bench prints PASS.
+{head}HDL = {hdl}
+BENCH = {bench}
+{timing}SHA256SUM = sha256sum
+{choice}
 # $(call needs,PROGRAM,HOW TO GET IT)
 needs = @command -v $(firstword $(1)) >/dev/null || { echo "$(firstword $(1)) is not installed; $(2)" >&2; exit 3; }
 # $(call judge,LOG): shows what a run printed, as far as anybody reads it; the verdict is in the file.
@@ -56,7 +107,7 @@ check:
 icarus: check
 	$(call needs,iverilog,try: {iverilog})
 	$(call needs,vvp,try: {iverilog})
-	@iverilog -g2001 $(DEFINES) -I. -o tb.vvp -s tb $(HDL) $(BENCH)
+	@iverilog -g{standard} {defines}-I.{include} -o tb.vvp -s tb $(HDL) $(BENCH)
 	@vvp -n tb.vvp >icarus.log 2>&1 || :
 	$(call judge,icarus.log)
 
@@ -64,7 +115,7 @@ icarus: check
 # where they count.
 verilator: check
 	$(call needs,verilator,try: {verilator})
-	@verilator --binary --timing -O3 -Wno-fatal --timescale 1ns/1ps $(DEFINES) --top-module tb $(HDL) $(BENCH) >build.log 2>&1 \
+	@verilator --binary --timing -O3 -Wno-fatal --timescale 1ns/1ps {defines}--top-module tb{include} $(HDL) $(BENCH) >build.log 2>&1 \
 		|| { cat build.log >&2; exit 1; }
 	@grep "^%" build.log >&2 || :
 	@./obj_dir/Vtb >verilator.log 2>&1 || :
@@ -72,7 +123,7 @@ verilator: check
 
 lint:
 	$(call needs,verilator,try: {verilator})
-	@verilator --lint-only -Wall --top-module {top} $(HDL)
+	@verilator --lint-only -Wall{include}{parameters} --top-module {top} $(HDL)
 
 clean:
 	rm -rf obj_dir tb.vvp *.log

@@ -9,13 +9,15 @@
 //!  status.exp.mem     status.cyc.mem        outputs compared in every cycle, where they change
 //!  <memory>.start.mem                       the words of a memory that nobody writes
 //!  <channel>.willing.mem                    when the bench offers and takes
-//!  *.csv                                    all of this for eyes, unless left out
+//!  *.csv                                    all of this as tables for people, unless left out
 //!  params.vh  cases.vh  tb.v  bench_*.v     the test bench
 //!  hdl/*.v  filelist.f  Makefile            the design, and how to run it
 //!  SHA256SUMS                               of what the bench reads; `make` looks at it first
 //! ```
 
 mod describe;
+mod device;
+mod dut;
 mod faults;
 mod makefile;
 pub mod mem;
@@ -26,6 +28,7 @@ mod testbench;
 pub(crate) use describe::file;
 
 use crate::capture::Trace;
+use crate::dut::Wiring;
 use crate::manifest;
 use crate::suites::Suite;
 use edgewalk_lockstep::{Direction, Interface, Pattern, Port, status_ports};
@@ -33,7 +36,7 @@ use edgewalk_lockstep::{Direction, Interface, Pattern, Port, status_ports};
 /// Files to be written: name relative to the directory, contents.
 pub type Files = Vec<(String, Vec<u8>)>;
 
-/// The tables for eyes: more than half of a directory's bytes.
+/// The tables for people: more than half of a directory's bytes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Tables {
     /// A CSV file for each channel, and one for the status.
@@ -42,10 +45,33 @@ pub enum Tables {
     LeftOut,
 }
 
+/// The design that a directory is for.
+#[derive(Clone, Copy)]
+enum Design<'a> {
+    /// Verilog files of the unit, name and text; they go to `hdl/`.
+    Ours(&'a [(String, String)]),
+    /// A user's, which stays where it is.
+    Own(&'a Wiring),
+}
+
 /// The whole directory. `design` are the Verilog files of the unit, name and text; they go to `hdl/`.
 #[must_use]
 pub fn directory(suite: &Suite, trace: &Trace, design: &[(String, String)], tables: Tables) -> Files {
+    all(suite, trace, Design::Ours(design), tables)
+}
+
+/// The whole directory for a user's design, which is wired to the unit of the trace and stays where it is.
+#[must_use]
+pub fn directory_for(suite: &Suite, trace: &Trace, wiring: &Wiring, tables: Tables) -> Files {
+    all(suite, trace, Design::Own(wiring), tables)
+}
+
+fn all(suite: &Suite, trace: &Trace, design: Design, tables: Tables) -> Files {
     let interface = &trace.interface;
+    let (ours, wiring) = match design {
+        Design::Ours(files) => (files, None),
+        Design::Own(wiring) => (&[][..], Some(wiring)),
+    };
     let mut files: Vec<(String, String)> = Vec::new();
     let mut add = |name: String, text: String| files.push((name, text));
     let with_triangles: Vec<&str> = known(trace).collect();
@@ -79,28 +105,37 @@ pub fn directory(suite: &Suite, trace: &Trace, design: &[(String, String)], tabl
         }
     }
     let stamp = trace.plan.stamp("//");
-    add("params.vh".to_owned(), format!("{stamp}\n{}", params::params(trace)));
+    add("params.vh".to_owned(), format!("{stamp}\n{}", params::params(trace, wiring)));
     add("cases.vh".to_owned(), format!("{stamp}\n{}", faults::cases(suite)));
     // All that the bench reads is there.
     let sums = sums(&files);
     let mut add = |name: String, text: String| files.push((name, text));
     add("SHA256SUMS".to_owned(), sums);
 
-    let hdl: Vec<String> = design.iter().map(|(name, _)| format!("hdl/{name}")).collect();
-    for (name, (_, text)) in hdl.iter().zip(design) {
-        add(name.clone(), text.clone());
+    let module = interface.unit.module();
+    let sources = match wiring {
+        None => {
+            let hdl = ours.iter().map(|(name, _)| format!("hdl/{name}")).collect();
+            makefile::Sources { top: &module, hdl, dut: None }
+        }
+        Some(Wiring { dut, .. }) => {
+            let hdl = dut.files.iter().map(|file| file.display().to_string()).collect();
+            makefile::Sources { top: &dut.top, hdl, dut: Some(dut) }
+        }
+    };
+    for (name, text) in ours {
+        add(format!("hdl/{name}"), text.clone());
     }
-    for (name, text) in testbench::MODULES {
+    for (name, text) in testbench::MODULES.into_iter().chain(wiring.map(|_| testbench::OWN_MODULE)) {
         add(name.to_owned(), format!("{stamp}\n{text}"));
     }
-    add("tb.v".to_owned(), format!("{stamp}\n{}", testbench::testbench(interface, &with_triangles)));
-    add("filelist.f".to_owned(), stamp + &makefile::filelist(&hdl));
-    let makefile = makefile::makefile(&interface.unit.module(), &hdl);
-    add("Makefile".to_owned(), trace.plan.stamp("#") + &makefile);
+    add("tb.v".to_owned(), format!("{stamp}\n{}", testbench::testbench(interface, &with_triangles, wiring)));
+    add("filelist.f".to_owned(), stamp + &sources.filelist());
+    add("Makefile".to_owned(), trace.plan.stamp("#") + &sources.makefile());
     add(manifest::SCHEMA_FILE.to_owned(), manifest::SCHEMA.to_owned());
 
     let mut files: Files = files.into_iter().map(|(name, text)| (name, text.into_bytes())).collect();
-    let manifest = describe::manifest(suite, trace, &files, tables);
+    let manifest = describe::manifest(suite, trace, wiring, &files, tables);
     // A manifest is plain data with text keys: it always becomes JSON.
     let mut json = serde_json::to_string_pretty(&manifest).unwrap_or_default();
     json.push('\n');

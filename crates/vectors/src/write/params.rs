@@ -1,13 +1,14 @@
 //! `params.vh`: the numbers of a run, for the test bench.
 
 use crate::capture::Trace;
+use crate::dut::Wiring;
 use crate::manifest::Limits;
 use edgewalk_lockstep::{Direction, status_ports};
 use std::fmt::Write as _;
 
 /// The text of `params.vh`, included inside the test bench.
 #[must_use]
-pub fn params(trace: &Trace) -> String {
+pub fn params(trace: &Trace, wiring: Option<&Wiring>) -> String {
     let mut text = format!("// Numbers of this run, for tb.v. Stalls {}.\n", trace.stalls.name());
     let mut line = |declared: String, meaning: &str| {
         let _ = writeln!(text, "localparam {declared:<32}// {meaning}");
@@ -24,7 +25,7 @@ pub fn params(trace: &Trace) -> String {
     let status: u32 = status_ports(interface).iter().map(|status| status.port.width()).sum();
     number("STATUS_WIDTH", status.into(), "bits of all outputs that are compared in every cycle");
     number("STATUS_COUNT", trace.status.len() as u64, "changes of these");
-    let limits = limits(trace);
+    let limits = limits(trace, wiring);
     number("IDLE_LIMIT", limits.idle, "cycles without an event that end the run");
     number("CYCLE_LIMIT", limits.cycles, "cycles that end the run whatever happens");
     for (memory, setting) in interface.memories.iter().zip(&trace.setting.memories) {
@@ -47,9 +48,12 @@ pub fn params(trace: &Trace) -> String {
 }
 
 /// When a run of any design ends. Twice the longest wait of the model, and some: a design that does nothing for so long
-/// has stopped.
-pub(super) fn limits(trace: &Trace) -> Limits {
-    Limits { idle: 2 * trace.longest_gap + 100, cycles: 2 * trace.cycles + 10_000 }
+/// has stopped. A user's design of another latency has more time, or what its description says.
+pub(super) fn limits(trace: &Trace, wiring: Option<&Wiring>) -> Limits {
+    let (idle, cycles) = (2 * trace.longest_gap + 100, 2 * trace.cycles + 10_000);
+    let Some(Wiring { dut, .. }) = wiring else { return Limits { idle, cycles } };
+    let idle = dut.patience.map_or(5 * idle + 1000, u64::from);
+    Limits { idle, cycles: 10 * cycles + idle }
 }
 
 fn sized(name: &str, width: u32, value: u128) -> String {

@@ -1,4 +1,4 @@
-//! Tables for eyes and spreadsheets: a token a line, signed fields with their sign.
+//! Tables for people and spreadsheets: a token a line, signed fields with their sign.
 
 use crate::capture::{LinkTrace, Trace};
 use crate::suites::Suite;

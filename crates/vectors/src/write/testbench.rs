@@ -1,6 +1,8 @@
 //! `tb.v`: a self-checking test bench in plain Verilog-2001, made of the modules in `bench/`.
 
+use super::device::{self, Device};
 use super::faults;
+use crate::dut::Wiring;
 use edgewalk_lockstep::{Direction, Interface, Link, Memory, Port, StatusPort, status_ports};
 use std::fmt::Write as _;
 
@@ -13,15 +15,22 @@ pub const MODULES: [(&str, &str); 5] = [
     ("bench_memory.v", include_str!("../../bench/bench_memory.v")),
 ];
 
-/// The test bench of a unit; `known` are the channels out whose tokens have a file of triangles.
+/// The module that a bench for a user's design uses beside them.
+pub const OWN_MODULE: (&str, &str) = ("bench_hold.v", include_str!("../../bench/bench_hold.v"));
+
+/// The test bench of a unit, or of the design that is wired to its ports; `known` are the channels out whose tokens have a
+/// file of triangles.
 #[must_use]
-pub fn testbench(interface: &Interface, known: &[&str]) -> String {
-    let mut text = HEADER.replace("{module}", &interface.unit.module());
+pub fn testbench(interface: &Interface, known: &[&str], wiring: Option<&Wiring>) -> String {
+    let device = wiring.map_or_else(|| device::reference(interface), |wiring| device::own(interface, wiring));
+    let mut text = header(&device);
     for channel in &interface.links {
         text.push_str(&channel_wires(channel));
     }
-    for channel in &interface.links {
-        text.push_str(&channel_end(interface, channel));
+    for (place, channel) in interface.links.iter().enumerate() {
+        // A design without a ready gives its tokens whether anybody is willing or not.
+        let asked = wiring.is_none_or(|wiring| wiring.links[place].ready.is_some());
+        text.push_str(&channel_end(interface, channel, asked));
         if channel.direction == Direction::Out {
             text.push_str(&faults::telling(
                 channel.name,
@@ -33,9 +42,24 @@ pub fn testbench(interface: &Interface, known: &[&str]) -> String {
     }
     text.push_str(&status_section(interface, &super::status_fields(interface)));
     text.push_str(&levels_section(interface));
-    text.push_str(&device_section(interface));
-    text.push_str(&end_section(interface));
+    text.push_str(&device.instance);
+    text.push_str(&end_section(interface, &device));
     text
+}
+
+fn header(device: &Device) -> String {
+    let (cycles, bits) = &device.resets;
+    let (clocks, counter) = match cycles.as_str() {
+        "3" => ("Three clocks".to_owned(), format!("reg [{}:0]  resets = 3;", bits - 1)),
+        "1" => ("One clock".to_owned(), "reg        resets = 1;".to_owned()),
+        more => (format!("{more} clocks"), format!("reg [{}:0]  resets = {more};", bits - 1)),
+    };
+    let order = if device.order_only { "`define ORDER_ONLY // compare = \"order\"\n" } else { "" };
+    HEADER
+        .replace("{module}", &device.module)
+        .replace("{order}", order)
+        .replace("{clocks}", &clocks)
+        .replace("{counter}", &counter)
 }
 
 const HEADER: &str = r#"// Replays the tokens of the .in.mem files into {module} and compares everything that comes out with
@@ -45,7 +69,7 @@ const HEADER: &str = r#"// Replays the tokens of the .in.mem files into {module}
 //
 // Defined, ORDER_ONLY is for a design with other timing: only the order and the values of the tokens count then, and its
 // status ports, which it need not have, stay open. `make CHECK_CYCLES=0` defines it.
-`timescale 1ns / 1ps
+{order}`timescale 1ns / 1ps
 `default_nettype none
 module tb;
 `ifdef ORDER_ONLY
@@ -58,9 +82,9 @@ module tb;
 `include "params.vh"
 `include "cases.vh"
 
-    // Three clocks of reset; cycle 0 is the first without.
+    // {clocks} of reset; cycle 0 is the first without.
     reg        clk = 1'b0;
-    reg [1:0]  resets = 3;
+    {counter}
     wire       rst = resets != 0;
     reg [31:0] cycle = 0;
     always #5 clk = !clk;
@@ -81,12 +105,12 @@ fn channel_wires(channel: &Link) -> String {
 }
 
 /// The bench's end of a channel.
-fn channel_end(interface: &Interface, channel: &Link) -> String {
+fn channel_end(interface: &Interface, channel: &Link, asked: bool) -> String {
     let served = interface.memories.iter().find(|memory| interface.links[memory.data].name == channel.name);
     let end = match (channel.direction, served) {
         (Direction::In, Some(memory)) => memory_end(interface, memory),
         (Direction::In, None) => SOURCE.to_owned(),
-        (Direction::Out, _) => SINK.to_owned(),
+        (Direction::Out, _) => SINK.replace("{willing}", if asked { "{name}_willing" } else { "1'b1" }),
     };
     (PATTERN.to_owned() + &end)
         .replace("{name}", channel.name)
@@ -111,7 +135,7 @@ const SOURCE: &str = r#"    wire {name}_more;
 const SINK: &str = r#"    wire [31:0] {name}_checked, {name}_wrong, {name}_due;
     wire [2:0]  {name}_fault;
     wire [{NAME}_WIDTH-1:0] {name}_want;
-    assign {name}_ready = {name}_willing;
+    assign {name}_ready = {willing};
     assign {name}_fire  = !rst && {name}_valid && {name}_ready;
     bench_sink #(
         .WIDTH({NAME}_WIDTH), .COUNT({NAME}_COUNT), .CHECK_CYCLES(CHECK_CYCLES),
@@ -211,32 +235,7 @@ fn range(field: &Port) -> String {
     if field.width() == 1 { String::new() } else { format!("[{}:0] ", field.width() - 1) }
 }
 
-fn device_section(interface: &Interface) -> String {
-    let mut ports = vec!["clk(clk)".to_owned(), "rst(rst)".to_owned()];
-    for channel in &interface.links {
-        let name = channel.name;
-        ports.push(format!("{name}_valid({name}_valid)"));
-        ports.push(format!("{name}_ready({name}_ready)"));
-        let mut high = channel.width();
-        for field in &channel.fields {
-            ports.push(format!("{}({name}_token[{}:{}])", field.name, high - 1, high - field.width()));
-            high -= field.width();
-        }
-    }
-    let constant = |field: &Port| format!("{}({})", field.name, field.name.to_uppercase());
-    ports.extend(interface.constants.iter().map(constant));
-    ports.extend(interface.levels.iter().map(|field| format!("{0}({0})", field.name)));
-    let list: Vec<String> = ports.iter().map(|port| format!("        .{port}")).collect();
-    let status = interface.status.iter().map(|status| format!(",\n        .{0}({0})", status.port.name));
-    let status = match interface.status.is_empty() {
-        true => String::new(),
-        false => format!("`ifndef ORDER_ONLY\n        {}\n`endif\n", status.collect::<String>().trim_start()),
-    };
-    let (module, list) = (interface.unit.module(), list.join(",\n"));
-    format!("\n    // The design.\n    {module} dut (\n{list}\n{status}    );\n")
-}
-
-fn end_section(interface: &Interface) -> String {
+fn end_section(interface: &Interface, device: &Device) -> String {
     let out: Vec<&str> = interface.links_of(Direction::Out).map(|link| link.name).collect();
     let sum =
         |suffix: &str| out.iter().map(|name| format!("{name}_{suffix}")).collect::<Vec<_>>().join(" + ");
@@ -249,38 +248,31 @@ fn end_section(interface: &Interface) -> String {
             (name.to_uppercase(), if *name == "status" { "CHECK_CYCLES != 0 && " } else { "" });
         let _ = writeln!(missing, "        if ({condition}{name}_checked != {upper}_COUNT) {name}_missing;");
     }
-    END.replace("{ports}", &port_widths(interface))
+    let wrong = [vec![sum("wrong")], device.wrong.clone()].concat().join(" + ");
+    END.replace("{ports}", &port_widths(device))
         .replace("{checked}", &sum("checked"))
-        .replace("{wrong}", &sum("wrong"))
+        .replace("{wrong}", &wrong)
         .replace("{counts}", &counts)
         .replace("{fires}", &fires.join(" || "))
         .replace("{missing}", &missing)
 }
 
 /// The check that every port of the design has the width of its values: a simulator would only cut them, and warn.
-fn port_widths(interface: &Interface) -> String {
-    let handshake = |link: &Link| ["valid", "ready"].map(|end| (format!("{}_{end}", link.name), 1));
-    let of = |port: &Port| (port.name.clone(), port.width());
-    let mut ports: Vec<(String, u32)> = Vec::new();
-    for link in &interface.links {
-        ports.extend(handshake(link));
-        ports.extend(link.fields.iter().map(of));
-    }
-    ports.extend(interface.constants.iter().chain(&interface.levels).map(of));
+fn port_widths(device: &Device) -> String {
     let line = |(name, width): &(String, u32)| {
         format!("        port_has(\"{name}\", $bits(dut.{name}), {width});\n")
     };
-    let status: Vec<(String, u32)> = interface.status.iter().map(|status| of(&status.port)).collect();
-    let longest = ports.iter().chain(&status).map(|(name, _)| name.len()).max().unwrap_or(1);
+    let all = device.ports.iter().chain(&device.status);
+    let longest = all.map(|(name, _)| name.len()).max().unwrap_or(1);
     let lines = |ports: &[(String, u32)]| ports.iter().map(line).collect::<String>();
-    let status = match lines(&status) {
+    let status = match lines(&device.status) {
         none if none.is_empty() => none,
         some => format!("`ifndef ORDER_ONLY\n{some}`endif\n"),
     };
     PORTS
-        .replace("{module}", &interface.unit.module())
+        .replace("{module}", &device.module)
         .replace("{bits}", &(8 * longest).to_string())
-        .replace("{lines}", &(lines(&ports) + &status))
+        .replace("{lines}", &(lines(&device.ports) + &status))
 }
 
 const PORTS: &str = r#"

@@ -55,7 +55,7 @@ impl First {
         Ok(First(BufWriter::with_capacity(PIECE, out.nameless()?)))
     }
 
-    /// Its next lines.
+    /// Compares the next lines of both pictures.
     pub fn add(&mut self, picture: &Raster) -> Result<()> {
         let mut pixels = 0..picture.rgb.len();
         pixels.try_for_each(|i| self.0.write_all(kept(picture, i).as_flattened())).context(WAITS)

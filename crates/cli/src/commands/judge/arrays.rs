@@ -81,7 +81,8 @@ impl Array {
         let mut file = BufReader::new(File::open(path)?);
         // The length of the header is checked before memory is taken for it.
         let mut start = [0; 12];
-        file.read_exact(&mut start).context("no array of numpy: it is shorter than a header")?;
+        file.read_exact(&mut start)
+            .context("is no numpy array: it is shorter than a header; write it with numpy.save")?;
         ensure!(start.starts_with(b"\x93NUMPY"), "no array of numpy: it does not begin with \\x93NUMPY");
         let header = match start[6] {
             1 => u64::from(u16::from_le_bytes([start[8], start[9]])),

@@ -108,9 +108,11 @@ fn chunk(asked: Option<u32>) -> Result<u32> {
     }
     let set = VARIABLES.iter().find_map(|name| Some((name, std::env::var(name).ok()?)));
     let (name, text) = set.ok_or_else(|| {
-        anyhow!("--chunk: which part? Neither {} nor {} says so", VARIABLES[0], VARIABLES[1])
+        anyhow!("--chunk: no part is given; add --chunk N, or set {} or {}", VARIABLES[0], VARIABLES[1])
     })?;
-    text.parse().map_err(|_| anyhow!("{name}={text}: no number of a part"))
+    text.parse().map_err(|_| {
+        anyhow!("{name}={text}: is no number of a part; set it to a whole number from 0, or unset it")
+    })
 }
 
 /// Puts the rows of all parts together, in the order of the points. Parts that are not there yet are missing and said to be.

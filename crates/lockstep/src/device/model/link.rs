@@ -190,7 +190,7 @@ impl WordPorts {
 pub struct Rules(Vec<(String, PortId)>);
 
 impl Rules {
-    /// Those of the interface.
+    /// Finds the rules among the ports of the interface.
     pub fn find(scope: Scope) -> Result<Rules, NoPlace> {
         let constants = scope.interface.constants.iter();
         let rules = Rules(constants.map(|port| (port.name.clone(), port.id)).collect());
@@ -222,7 +222,7 @@ enum HeldValue {
 }
 
 impl HeldPorts {
-    /// Those beside this link.
+    /// Finds the ports that are held beside this link.
     pub fn find(scope: Scope, link: &Link) -> Result<HeldPorts, NoPlace> {
         let value = |name: &str| match name {
             "record" => Some(HeldValue::Record),

@@ -37,7 +37,7 @@ struct Given {
 }
 
 impl Outputs {
-    /// Those of the unit that are its own ports; others inside the machine are ports of the machine.
+    /// Finds the outputs that are ports of the unit itself; others inside the machine are ports of the machine.
     pub fn find(scope: Scope) -> Result<Outputs, NoPlace> {
         let declared = scope.declared()?;
         let given = |name: &str| {

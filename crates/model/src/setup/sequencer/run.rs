@@ -5,10 +5,11 @@ use super::lane::{Addend, Formats, Lane, Number, signed};
 use super::slow::{Ran, SlowSetup};
 use crate::setup::Culled;
 use crate::tokens::{Prim, sign_extend};
-use edgewalk_machine::PortVertex;
 use edgewalk_machine::sequencer::word::{
-    Act, Control, Corner, Drop, Factor, Give, Only, Part, Row, Step, Word,
+    Act, Control, Corner, Drop, Factor, Give, Only, Part, Row, Step, Word, Write,
 };
+use edgewalk_machine::sequencer::{NAMED_ROWS, edges_are_beside};
+use edgewalk_machine::{PortVertex, Role};
 
 /// A word that waits this long sees what a row or a check has become.
 const BEHIND: u32 = 3;
@@ -26,6 +27,8 @@ pub(super) struct Run<'a, const C: usize> {
     /// Of the word behind the call.
     link: u16,
     clock: u32,
+    /// Words executed when no prim waits any more.
+    room: Option<u32>,
     over: bool,
     culled: Option<Culled>,
     /// Numbers of the vertices, in their order so far.
@@ -46,7 +49,7 @@ pub(super) struct Run<'a, const C: usize> {
     /// i.
     scale: u32,
     /// Clocks in which rows were written.
-    written: [u32; 64],
+    written: [u32; NAMED_ROWS as usize],
     early: u32,
     prim: Prim<C>,
 }
@@ -65,6 +68,7 @@ impl<'a, const C: usize> Run<'a, C> {
             place: 0,
             link: 0,
             clock: BEHIND,
+            room: None,
             over: false,
             culled: None,
             order: [0, 1, 2],
@@ -78,7 +82,7 @@ impl<'a, const C: usize> Run<'a, C> {
             count: 0,
             counts_channels: false,
             scale: 0,
-            written: [0; 64],
+            written: [0; NAMED_ROWS as usize],
             early: 0,
             prim: Prim::default(),
         }
@@ -93,7 +97,9 @@ impl<'a, const C: usize> Run<'a, C> {
     }
 
     pub fn ran(self) -> Ran<C> {
-        Ran { clocks: self.clocks(), culled: self.culled, prim: self.prim, early: self.early }
+        let clocks = self.room.unwrap_or(self.clocks());
+        let load = self.clocks() - clocks;
+        Ran { clocks, load, culled: self.culled, prim: self.prim, early: self.early }
     }
 
     /// Executes a word once.
@@ -114,9 +120,10 @@ impl<'a, const C: usize> Run<'a, C> {
         if let Some((factor, row)) = word.factor {
             self.load(factor, row);
         }
-        if let Some(write) = word.write {
-            self.lanes.iter_mut().for_each(|lane| lane.write(write.row, write.only_a));
-            self.written[usize::from(write.row)] = self.clock;
+        if let Some(Write { row, only_a, numbered }) = word.write {
+            let row = if numbered { self.numbered(row) } else { row };
+            self.lanes.iter_mut().for_each(|lane| lane.write(row, only_a));
+            self.written[usize::from(row)] = self.clock;
         }
         let next = self.next(word.control, zero);
         if let Some(act) = word.act {
@@ -142,6 +149,7 @@ impl<'a, const C: usize> Run<'a, C> {
                 Only::Positive => a >= 0,
                 Only::NoUpper => !self.lines[0],
                 Only::Right => self.right,
+                Only::Thin => Role::of(self.vertices) != Role::Triangle,
             };
             if done && !holds {
                 self.lanes[lane].step(&Addend { base, row: value, operand, sign }, &formats);
@@ -201,12 +209,22 @@ impl<'a, const C: usize> Run<'a, C> {
         if self.beside { lane } else { self.number }
     }
 
+    /// The row of a table.
+    fn numbered(&self, table: u8) -> u8 {
+        table | self.number as u8 & 7
+    }
+
     fn read(&mut self, row: Row, lane: usize, digits: u8) -> Number {
         let plan = &self.setup.plan;
         let named = match row {
             Row::Named(row) => row,
             Row::Digits(table) => table + digits,
             Row::Edge(table) => table + (self.edge(lane) as u8 & 3),
+            Row::Number(table) => self.numbered(table),
+            Row::Pass(table) if Role::of(self.vertices) == (Role::Line { flat: true }) => {
+                let [height, width] = ["height", "width"].map(|name| self.setup.program.row(name));
+                (if table == height { width } else { height }) + u8::from(self.light_pass)
+            }
             Row::Pass(table) => table + u8::from(self.light_pass),
             Row::Vertex(corner, part) => {
                 let place = match corner {
@@ -280,6 +298,10 @@ impl<'a, const C: usize> Run<'a, C> {
         let goes = |condition: bool, to: u16| if condition { to } else { behind };
         match control {
             Control::Next | Control::Words => behind,
+            Control::Room => {
+                self.room = Some(self.clocks() + 1);
+                behind
+            }
             Control::Settle if self.digits.are_settled(self.clock) => behind,
             Control::Settle => same,
             Control::Digits => {
@@ -346,7 +368,10 @@ impl<'a, const C: usize> Run<'a, C> {
                 self.scale = 0;
             }
             Act::Edge(edge) => self.number = edge.into(),
-            Act::Beside => self.beside = true,
+            Act::Beside => {
+                self.beside = true;
+                self.number = 0;
+            }
             Act::Alone => self.beside = false,
             Act::Drop(drop) => {
                 self.over = true;
@@ -372,10 +397,8 @@ impl<'a, const C: usize> Run<'a, C> {
             Give::Jm => self.prim.line = (a >> t) as u32,
             Give::N1 => self.prim.lines[0] = (a >> t) as u32,
             Give::N2 => self.prim.lines[1] = (a >> t) as u32,
-            Give::M | Give::Qf | Give::R | Give::C if self.beside => {
-                for lane in self.counted().collect::<Vec<_>>() {
-                    self.give_edge(give, lane, lane);
-                }
+            Give::M | Give::Qf | Give::R | Give::C if edges_are_beside(&self.setup.plan) => {
+                (0..3).for_each(|lane| self.give_edge(give, lane, lane));
             }
             Give::M | Give::Qf | Give::R | Give::C => self.give_edge(give, self.number, 0),
             Give::Start | Give::D0 | Give::D1 | Give::G => self.give_channels(give),
@@ -385,6 +408,9 @@ impl<'a, const C: usize> Run<'a, C> {
     fn give_edge(&mut self, give: Give, edge: usize, lane: usize) {
         let t = self.setup.plan.widths().center_fraction;
         let column_bits = self.setup.plan.widths().column;
+        if edge > 2 || (edge > 0 && !self.lines[edge - 1]) {
+            return; // not walked; a number above 2 has only an altered program
+        }
         let Number { a, w } = self.lanes[lane].now;
         let edge = if edge == 0 { &mut self.prim.major } else { &mut self.prim.minor[edge - 1] };
         match give {

@@ -16,8 +16,10 @@ pub struct SlowSetup {
 /// What became of a triangle.
 #[derive(Clone, Debug)]
 pub struct Ran<const C: usize> {
-    /// S: words that were executed, each repetition counted.
+    /// S: words that were executed up to the one that waits for room, or drops; each repetition counted.
     pub clocks: u32,
+    /// L: words behind it; 0 of a triangle that is culled.
+    pub load: u32,
     /// Why the triangle draws nothing, if it is culled.
     pub culled: Option<Culled>,
     /// Lines, edges and channels; without tag, k_t, record and number.

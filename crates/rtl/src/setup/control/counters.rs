@@ -36,9 +36,9 @@ pub(super) struct Counters<'m> {
     pub state: Reg<'m>,
     /// The operation that begins.
     pub at: Reg<'m>,
-    /// Its clocks after this one.
+    /// Clocks of the operation after this one.
     pub left: Reg<'m>,
-    /// Its first clock.
+    /// First clock of the operation.
     pub first: Reg<'m>,
     pub rounds: Rounds<'m>,
 }
@@ -49,8 +49,8 @@ impl<'m> Counters<'m> {
         Counters {
             state: m.reg("state", 2).reset(0),
             at: m.reg("at", op_bits).doc("operation"),
-            left: m.reg("left", left_bits).doc("its clocks after this one"),
-            first: m.reg("first", 1).doc("its first clock, but for that of a triangle"),
+            left: m.reg("left", left_bits).doc("clocks of the operation after this one"),
+            first: m.reg("first", 1).doc("first clock of an operation, except of a triangle's first"),
             rounds: Rounds::new(m, plan),
         }
     }
@@ -76,7 +76,7 @@ impl<'m> Rounds<'m> {
         Rounds { number: (most > 1).then(register), of_edges, of_channels }
     }
 
-    /// It is this round; `None` where there is no other.
+    /// The counter is at this round; `None` where there is no other.
     pub fn is(&self, number: usize) -> Option<Signal<'m>> {
         self.number.map(|round| round.q().eq(number as i32))
     }

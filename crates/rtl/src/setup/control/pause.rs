@@ -22,13 +22,15 @@ pub(in crate::setup) struct Pause<'m> {
 impl<'m> Pause<'m> {
     /// The registers, without updates.
     pub fn new(m: &'m Module, plan: &Plan) -> Pause<'m> {
-        m.comment("Numbers that do not fit hold up what follows: two clocks, and one for two digits.");
+        m.comment(
+            "A number outside ±M pauses the sequence for two clocks, plus one for each pair of digits.",
+        );
         let [edge_rounds, channel_rounds] = rounds(plan);
         let most_rounds = if plan.fill == Fill::Textbook { edge_rounds.max(channel_rounds) } else { 0 };
         let of_channels = (0..most_rounds).map(|round| pairs(plan, round));
         let most_pairs = of_channels.fold(edge_pairs(plan), u32::max);
-        let counter = m.reg("pause", (most_pairs + 2).ilog2() + 1).doc("clocks left of it");
-        let paused = m.reg("paused", 1).doc("it is not over").reset(0);
+        let counter = m.reg("pause", (most_pairs + 2).ilog2() + 1).doc("clocks of the pause that are left");
+        let paused = m.reg("paused", 1).doc("the operation is not over").reset(0);
         Pause { advance: (!paused.q()).named("advance"), left: counter.q(), counter, paused }
     }
 

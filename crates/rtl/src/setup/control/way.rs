@@ -19,28 +19,28 @@ pub(in crate::setup) struct Stage<'m> {
 }
 
 impl<'m> Stage<'m> {
-    /// It is this operation.
+    /// The stage is at this operation.
     pub fn is(&self, op: Op) -> Signal<'m> {
         self.one_of(&[op])
     }
 
-    /// It is one of these; those that the machine does not have do not count.
+    /// The stage is at one of these operations; those that the machine does not have do not count.
     pub fn one_of(&self, ops: &[Op]) -> Signal<'m> {
         let codes = self.codes.iter().filter(|(op, _)| ops.contains(op)).map(|(_, code)| self.at.eq(*code));
         codes.reduce(|any, one| any | one).unwrap_or(self.at.module().lit(1, 0))
     }
 
-    /// It is this operation, in this round.
+    /// The stage is at this operation, in this round.
     pub fn is_in(&self, op: Op, round: usize) -> Signal<'m> {
         self.in_round(round).map_or(self.is(op), |is| self.is(op) & is)
     }
 
-    /// It ends, in this round.
+    /// The operation ends, in this round.
     pub fn ends_in(&self, op: Op, round: usize) -> Signal<'m> {
         self.ends & self.is_in(op, round)
     }
 
-    /// It is this round; `None` where there is no other.
+    /// The stage is in this round; `None` where there is no other.
     pub fn in_round(&self, round: usize) -> Option<Signal<'m>> {
         self.round.map(|number| number.eq(round as i32))
     }
@@ -60,11 +60,11 @@ pub(in crate::setup) struct Way<'m> {
     /// The operation chooses what is loaded. It is held while numbers do not fit: with few doublings DY is
     /// the next to be loaded.
     pub next: Stage<'m>,
-    /// Its step is done.
+    /// The stage whose step is done.
     pub stepped: Stage<'m>,
     /// The rest of its result stands, the whole part is formed.
     pub rest: Stage<'m>,
-    /// Its result stands.
+    /// The stage whose result stands.
     pub whole: Stage<'m>,
     /// The step after the numbers that did not fit is formed again.
     pub(super) resumes: Signal<'m>,

@@ -28,12 +28,12 @@ impl<'m> Inputs<'m> {
     pub fn new(m: &'m Module, shape: Shape) -> Inputs<'m> {
         Inputs {
             read_at: m.input_doc("read_at", 3, "slot of the addend, two clocks before its step"),
-            step: m.input_doc("step", Step::BITS, "a clock before it is done"),
+            step: m.input_doc("step", Step::BITS, "valid a clock before the step"),
             number: m.input_doc("number", shape.number, "to take in, signed; with its step"),
             digits: m.input_doc(
                 "digits",
                 2,
-                "of a number that does not fit, or its sign twice; with their step",
+                "digits of a number outside ±M, or its sign twice; valid with their step",
             ),
             write: m.input_doc("write", 1, "the result of the step goes to a slot"),
             write_at: m.input("write_at", 3),
@@ -45,13 +45,13 @@ impl<'m> Inputs<'m> {
             take_modulus: m.input_doc("take_modulus", 1, "two clocks before the first step with it"),
             modulus_in: m.input_doc("modulus_in", shape.modulus, "-M, or -M - 1 if modulus_short; signed"),
             modulus_short: m.input("modulus_short", 1),
-            give: m.input_doc("give", 1, "an operation has ended: value is its result, a clock later"),
+            give: m.input_doc("give", 1, "an operation has ended; a clock later value is its result"),
             nearest: m.input_doc(
                 "nearest",
                 1,
                 "value is rounded to nearest, halves up; a clock before it, with rest_out",
             ),
-            upwards: m.input_doc("upwards", 1, "else: up; if not, it is cut"),
+            upwards: m.input_doc("upwards", 1, "1: round up; 0: cut"),
             negate: m.input_doc("negate", 1, "value is negated, once it is rounded"),
         }
     }

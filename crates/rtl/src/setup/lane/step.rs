@@ -27,14 +27,14 @@ impl<'m> Modulus<'m> {
 pub(super) struct Rest<'m> {
     pub now: Reg<'m>,
     next: Wire<'m>,
-    /// That of the slot that is read.
+    /// The rest of the slot that is read.
     pub stored: Signal<'m>,
 }
 
 impl<'m> Rest<'m> {
     /// The register and the memory of the slots.
     pub fn new(m: &'m Module, inputs: &Inputs<'m>) -> Rest<'m> {
-        m.comment("The rests of the slots. Slot 0 is never written: it holds 0.");
+        m.comment("Rests of the slots. Slot 0 is never written and holds 0.");
         let slot = inputs.modulus_in.width() - 1;
         let (write, write_at, read_at) = (inputs.write, inputs.write_at, inputs.read_at);
         let now = m.reg("rest", slot).doc("1/M");
@@ -98,14 +98,14 @@ pub(super) struct Done<'m> {
     pub of_slot: Signal<'m>,
 }
 
-/// The step: x and the addend, less M as often as it goes.
+/// The step: x plus the addend, less M as often as M fits.
 pub(super) fn step<'m>(
     m: &'m Module,
     inputs: &Inputs<'m>,
     addends: &Addends<'m>,
     rest: &Rest<'m>,
 ) -> Done<'m> {
-    m.comment("The step: x and the addend, less M as often as it goes.");
+    m.comment("The step: x plus the addend, less M as often as M fits.");
     let (step, number) = (inputs.step, inputs.number);
     let slot = rest.now.q().width();
     let (bits, sums) = (slot + 1, slot + 2);
@@ -114,11 +114,11 @@ pub(super) fn step<'m>(
     let twofold = flag(m, "twofold", one_of(step, &[Step::Double1, Step::Next]));
     let keeps = flag(m, "keeps", one_of(step, &[Step::Rest, Step::Add]));
     let takes = flag(m, "takes", one_of(step, &[Step::Take, Step::Begin]));
-    let added = m.reg("added", number.width()).doc("number or digits taken in, 0 where there are none");
+    let added = m.reg("added", number.width()).doc("number or digits taken in; 0 if there are none");
     let of_digits = is(step, Step::Digits).mux(inputs.digits.zext(number.width()), 0);
     added.set(is(step, Step::Take).mux(number, of_digits));
     let sign = (is(step, Step::Take) & number.msb()) | (is(step, Step::Begin) & inputs.digits.msb());
-    let below = m.reg("below", 1).doc("what is taken in is below 0").set(sign).q();
+    let below = m.reg("below", 1).doc("the number taken in is below 0").set(sign).q();
     let old = rest.now.q().zext(sums);
     let times = fourfold.mux(old.shl(2), twofold.mux(old.shl(1), 0));
     let x = (times | (old & repeat(keeps, sums)) | added.q().sext(sums)).named("x");

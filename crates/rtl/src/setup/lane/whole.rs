@@ -51,7 +51,7 @@ pub(super) fn give<'m>(
     rest: Reg<'m>,
     whole: Signal<'m>,
 ) {
-    m.comment("What is done is given out rounded, with a whole number added, or negated: -w - 1 is the complement of w.");
+    m.comment("A result is rounded, has a whole number added, or is negated: -w - 1 is the complement of w.");
     let (give, negate) = (inputs.give, inputs.negate);
     m.output_doc("rest_out", rest, "1/M, from the clock after a step");
     let twice = m.cat(&[rest.q(), m.lit(1, 0)]);

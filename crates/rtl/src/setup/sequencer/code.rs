@@ -1,15 +1,20 @@
 //! The assembler: words of the program as bits of the ROM, and the bits that stand in it, taken apart.
 
+use edgewalk_machine::Plan;
 use edgewalk_machine::sequencer::Program;
 use edgewalk_machine::sequencer::word::{
-    Act, Base, Control, Corner, Factor, Give, Only, Operand, Part, Row, Sign, Word,
+    ACTS, Act, Base, Control, Corner, Factor, Give, Only, Operand, Part, Row, Sign, Word,
 };
 use edgewalk_netlist::{Module, Signal};
 
 /// Bits of the place of a row.
-pub(super) const ROW_BITS: u32 = 7;
+pub(super) const ROW_BITS: u32 = 8;
 /// Bits of the place of a word within its vertex.
 pub(super) const PART_BITS: u32 = 4;
+/// Bits of the place of a row that a word writes.
+const WRITE_BITS: u32 = ROW_BITS - 1;
+/// The first row of the vertices.
+pub(super) const VERTICES: u128 = 1 << WRITE_BITS;
 /// Place of a vertex's first channel.
 pub(super) const FIRST_VALUE: u128 = 2;
 /// Stands for the place of the value of the round.
@@ -21,35 +26,11 @@ pub(super) enum Mode {
     AsIs,
     Digits,
     Edge,
+    Number,
     Pass,
     Vertex,
     Upper,
     Lower,
-}
-
-/// What a word does besides, as a number; 0 does nothing.
-#[derive(Clone, Copy)]
-pub(super) enum Deed {
-    Unsorted = 1,
-    Swap01,
-    Swap12,
-    Side,
-    Upper,
-    Lower,
-    Shift,
-    Judge,
-    Check,
-    TimesT,
-    TimesK,
-    Scale,
-    LastRound,
-    Edge0,
-    Edge1,
-    Edge2,
-    Beside,
-    Alone,
-    Drop,
-    Done,
 }
 
 /// Which word comes next, as a number.
@@ -57,6 +38,7 @@ pub(super) enum Deed {
 pub(super) enum Jump {
     Next,
     Words,
+    Room,
     Settle,
     Digits,
     Again,
@@ -78,7 +60,7 @@ pub(super) fn number_of(give: Give) -> u128 {
 }
 
 /// The parts of a word in the ROM, the most significant first: their names and bits; `target` has those of a place.
-const FIELDS: [(&str, u32); 18] = [
+const FIELDS: [(&str, u32); 19] = [
     ("act", 5),
     ("give", 4),
     ("target", 0),
@@ -87,7 +69,8 @@ const FIELDS: [(&str, u32); 18] = [
     ("load_f", 1),
     ("write_w", 1),
     ("write_a", 1),
-    ("write_row", 6),
+    ("write_numbered", 1),
+    ("write_row", WRITE_BITS),
     ("steps", 1),
     ("only", 3),
     ("raised", 1),
@@ -124,8 +107,8 @@ impl<'m> Decoded<'m> {
         self.get("jump").eq(jump as i32)
     }
 
-    pub fn does(&self, deed: Deed) -> Signal<'m> {
-        self.get("act").eq(deed as i32)
+    pub fn does(&self, act: Act) -> Signal<'m> {
+        self.get("act").eq(act_code(act))
     }
 
     pub fn is_mode(&self, mode: Mode) -> Signal<'m> {
@@ -135,15 +118,11 @@ impl<'m> Decoded<'m> {
 
 /// The ROM; gives the word that was addressed a clock before.
 pub(super) fn rom<'m>(m: &'m Module, program: &Program, next: Signal<'m>) -> Decoded<'m> {
-    let fields: Vec<_> = fields(program).collect();
+    let (fields, words) = coded(program);
     let bits = fields.iter().map(|(_, bits)| bits).sum();
     let rom = m.memory("listing", place_bits(program), program.words.len(), bits).doc("the program");
-    for (place, word) in program.words.iter().enumerate() {
-        let mut code = 0u128;
-        for (name, bits) in &fields {
-            code = code << bits | value(word, name);
-        }
-        rom.holds(place, code, &word.text);
+    for (place, word) in words.iter().enumerate() {
+        rom.holds(place, word.code, &word.text);
     }
     let word = rom.read(m.lit(1, 1), next);
     let mut below = bits;
@@ -155,6 +134,59 @@ pub(super) fn rom<'m>(m: &'m Module, program: &Program, next: Signal<'m>) -> Dec
     Decoded(decoded)
 }
 
+/// A word of the ROM.
+#[derive(Clone, Debug)]
+pub struct RomWord {
+    /// The word's line of the listing.
+    pub text: String,
+    /// Bits of the code.
+    pub code: u128,
+    /// The bits that something depends on; the others do not care.
+    pub used: u128,
+}
+
+/// The parts of a word in the ROM, the most significant first, and what each word holds.
+#[must_use]
+pub fn program_rom(plan: &Plan) -> (Vec<(&'static str, u32)>, Vec<RomWord>) {
+    coded(&Program::of(plan))
+}
+
+fn coded(program: &Program) -> (Vec<(&'static str, u32)>, Vec<RomWord>) {
+    let fields: Vec<_> = fields(program).collect();
+    let packed = |part: &dyn Fn(&'static str) -> u128| {
+        fields.iter().fold(0u128, |code, &(name, bits)| code << bits | part(name) & ((1 << bits) - 1))
+    };
+    let words = program.words.iter().map(|word| RomWord {
+        text: word.text.clone(),
+        code: packed(&|name| value(word, name)),
+        used: packed(&|name| used(word, name)),
+    });
+    let words = words.collect();
+    (fields, words)
+}
+
+/// The bits of a part that something depends on.
+fn used(word: &Word, field: &str) -> u128 {
+    let all = |is: bool| if is { u128::MAX } else { 0 };
+    let row = word.step.map(|step| step.row).or(word.factor.map(|(_, row)| row));
+    match field {
+        "target" => all(word.control.place().is_some()),
+        "write_row" | "write_numbered" => all(word.write.is_some()),
+        "only" | "raised" | "whole" | "by_a" | "base" => all(word.step.is_some()),
+        "minus" | "by_side" => all(word.step.is_some_and(|step| step.sign != Sign::ByA)),
+        "mode" => all(row.is_some()),
+        "row" => match row {
+            None => 0,
+            Some(Row::Named(_) | Row::Number(_)) => u128::MAX,
+            Some(Row::Digits(_) | Row::Edge(_)) => !3,
+            Some(Row::Pass(_)) => !1,
+            Some(Row::OfChannel | Row::Vertex(Corner::Place(_), _)) => VERTICES / 2 - 1,
+            Some(Row::Vertex(..)) => (1 << PART_BITS) - 1,
+        },
+        _ => u128::MAX,
+    }
+}
+
 /// A part of the word as a number.
 fn value(word: &Word, field: &str) -> u128 {
     let row = word.step.map(|step| step.row).or(word.factor.map(|(_, row)| row));
@@ -162,7 +194,7 @@ fn value(word: &Word, field: &str) -> u128 {
     let step = word.step;
     let sign = |signs: &[Sign]| step.is_some_and(|step| signs.contains(&step.sign)).into();
     match field {
-        "act" => word.act.map_or(0, deed),
+        "act" => word.act.map_or(0, act_code),
         "give" => word.give.map_or(0, number_of),
         "target" => word.control.place().map_or(0, u128::from),
         "jump" => jump(word.control) as u128,
@@ -170,6 +202,7 @@ fn value(word: &Word, field: &str) -> u128 {
         "load_f" => matches!(word.factor, Some((Factor::F, _))).into(),
         "write_w" => word.write.is_some_and(|write| !write.only_a).into(),
         "write_a" => word.write.is_some().into(),
+        "write_numbered" => word.write.is_some_and(|write| write.numbered).into(),
         "write_row" => word.write.map_or(0, |write| write.row.into()),
         "steps" => step.is_some().into(),
         "only" => step.map_or(0, |step| only(step.only)),
@@ -185,11 +218,12 @@ fn value(word: &Word, field: &str) -> u128 {
 }
 
 fn row_code(row: Row) -> (Mode, u128) {
-    let vertex = |place: u128, part: u128| 1 << (ROW_BITS - 1) | place << PART_BITS | part;
+    let vertex = |place: u128, part: u128| VERTICES | place << PART_BITS | part;
     match row {
         Row::Named(row) => (Mode::AsIs, row.into()),
         Row::Digits(table) => (Mode::Digits, table.into()),
         Row::Edge(table) => (Mode::Edge, table.into()),
+        Row::Number(table) => (Mode::Number, table.into()),
         Row::Pass(table) => (Mode::Pass, table.into()),
         Row::OfChannel => (Mode::Vertex, vertex(3, VALUE)),
         Row::Vertex(corner, part) => {
@@ -223,6 +257,7 @@ fn only(only: Only) -> u128 {
         Only::Positive => 2,
         Only::NoUpper => 3,
         Only::Right => 4,
+        Only::Thin => 5,
     }
 }
 
@@ -230,6 +265,7 @@ fn jump(control: Control) -> Jump {
     match control {
         Control::Next => Jump::Next,
         Control::Words => Jump::Words,
+        Control::Room => Jump::Room,
         Control::Settle => Jump::Settle,
         Control::Digits => Jump::Digits,
         Control::Again => Jump::Again,
@@ -246,28 +282,8 @@ fn jump(control: Control) -> Jump {
     }
 }
 
-fn deed(act: Act) -> u128 {
-    let deed = match act {
-        Act::Unsorted => Deed::Unsorted,
-        Act::Swap01 => Deed::Swap01,
-        Act::Swap12 => Deed::Swap12,
-        Act::Side => Deed::Side,
-        Act::Upper => Deed::Upper,
-        Act::Lower => Deed::Lower,
-        Act::Shift => Deed::Shift,
-        Act::Judge => Deed::Judge,
-        Act::Check => Deed::Check,
-        Act::TimesT => Deed::TimesT,
-        Act::TimesK => Deed::TimesK,
-        Act::Scale => Deed::Scale,
-        Act::LastRound => Deed::LastRound,
-        Act::Edge(0) => Deed::Edge0,
-        Act::Edge(1) => Deed::Edge1,
-        Act::Edge(_) => Deed::Edge2,
-        Act::Beside => Deed::Beside,
-        Act::Alone => Deed::Alone,
-        Act::Drop(_) => Deed::Drop,
-        Act::Done => Deed::Done,
-    };
-    deed as u128
+/// What a word does besides, as a number; 0 does nothing.
+fn act_code(act: Act) -> u128 {
+    let place = ACTS.iter().position(|(_, other)| *other == act);
+    place.expect("the list has every act") as u128 + 1
 }

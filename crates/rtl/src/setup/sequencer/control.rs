@@ -1,10 +1,11 @@
 //! Which word comes next, and the counters and flags that say so.
 
 use edgewalk_machine::sequencer::edges_are_beside;
+use edgewalk_machine::sequencer::word::{Act, Drop};
 use edgewalk_netlist::{Reg, Signal};
 
 use super::Parts;
-use super::code::{Deed, Jump, place_bits};
+use super::code::{Jump, place_bits};
 use super::digits::Digits;
 use super::shape::most_doublings;
 
@@ -15,6 +16,8 @@ pub(super) struct Control<'m> {
     /// A triangle is there, and worked on.
     pub full: Reg<'m>,
     pub prim_there: Signal<'m>,
+    /// The last word of a triangle that is not culled.
+    pub done: Signal<'m>,
     /// Words are taken.
     pub idle: Signal<'m>,
     /// The major edge lies right.
@@ -39,21 +42,23 @@ impl<'m> Control<'m> {
         let Parts { m, plan, program, word, runs, .. } = parts;
         m.comment("Counters and flags.");
         let flag = |name: &str, doc: &str| m.reg(name, 1).doc(doc);
-        let does = |deed: Deed| word.does(deed) & *runs;
+        let does = |act: Act| word.does(act) & *runs;
         let full = flag("full", "a triangle is there, and worked on").reset(0);
-        let prim_there = flag("prim_there", "the prim waits for EDGE").reset(0);
-        let done = does(Deed::Done).named("done");
-        full.when(done | does(Deed::Drop), 0);
+        let prim_there = flag("prim_there", "a prim is offered").reset(0);
+        let done = does(Act::Done).named("done");
+        let drops = [Drop::Lines, Drop::Columns, Drop::Area].map(|drop| does(Act::Drop(drop)));
+        full.when(drops.into_iter().fold(done, |any, drop| any | drop), 0);
         prim_there.when(prim_ready, 0).when(done, 1);
-        let idle = (!full.q() & !prim_there.q()).named("idle");
+        let leaves = flag("leaves", "the prim is offered for the first time").reset(0).set(done).q();
+        let idle = (!full.q() & !leaves).named("idle");
 
         let negative = parts.of_lane(0, "is_negative");
-        let right = flag("right", "the major edge lies right").when(does(Deed::Side), negative).q();
-        let upper = flag("upper", "the upper part has lines").when(does(Deed::Upper), !negative).q();
-        let lower = flag("lower", "the lower part has lines").when(does(Deed::Lower), !negative).q();
+        let right = flag("right", "the major edge lies right").when(does(Act::Side), negative).q();
+        let upper = flag("upper", "the upper part has lines").when(does(Act::Upper), !negative).q();
+        let lower = flag("lower", "the lower part has lines").when(does(Act::Lower), !negative).q();
         let beside = edges_are_beside(plan).then(|| {
             let beside = flag("beside", "lanes have edges of their own").reset(0);
-            beside.when(does(Deed::Beside), 1).when(does(Deed::Alone), 0).q()
+            beside.when(does(Act::Beside), 1).when(does(Act::Alone), 0).q()
         });
         let order = order(parts, negative);
         let number = number(parts, &does);
@@ -72,6 +77,7 @@ impl<'m> Control<'m> {
         let is = |jump: Jump| word.jumps(jump);
         let last = digits.is_last;
         let repeats = (is(Jump::Words) & !full.q())
+            | (is(Jump::Room) & prim_there.q())
             | (is(Jump::Settle) & digits.are_unsettled())
             | (is(Jump::Digits) & !last)
             | (is(Jump::Again) & !count.eq(1))
@@ -93,6 +99,7 @@ impl<'m> Control<'m> {
             next,
             full,
             prim_there: prim_there.q(),
+            done,
             idle,
             right,
             order,
@@ -127,10 +134,10 @@ fn order<'m>(parts: &Parts<'_, 'm>, negative: Signal<'m>) -> [Signal<'m>; 3] {
     let Parts { m, word, .. } = parts;
     let places = [0, 1, 2].map(|place| m.reg(&format!("place{place}"), 2).doc("number of the vertex there"));
     for (number, place) in places.iter().enumerate() {
-        place.when(word.does(Deed::Unsorted), number as u128);
+        place.when(word.does(Act::Unsorted), number as u128);
     }
-    for (deed, first) in [(Deed::Swap01, 0), (Deed::Swap12, 1)] {
-        let swaps = word.does(deed) & negative;
+    for (act, first) in [(Act::Swap01, 0), (Act::Swap12, 1)] {
+        let swaps = word.does(act) & negative;
         let [a, b] = [places[first], places[first + 1]];
         a.when(swaps, b.q());
         b.when(swaps, a.q());
@@ -139,19 +146,20 @@ fn order<'m>(parts: &Parts<'_, 'm>, negative: Signal<'m>) -> [Signal<'m>; 3] {
 }
 
 /// Round of channels, or the edge.
-fn number<'m>(parts: &Parts<'_, 'm>, does: &impl Fn(Deed) -> Signal<'m>) -> Signal<'m> {
+fn number<'m>(parts: &Parts<'_, 'm>, does: &impl Fn(Act) -> Signal<'m>) -> Signal<'m> {
     let rounds = most_doublings(parts.plan).len() as u128;
     let number = parts.m.reg("number", 3).doc("of the round of channels, or of the edge");
-    number.when(does(Deed::LastRound), rounds - 1);
-    for (edge, deed) in [Deed::Edge0, Deed::Edge1, Deed::Edge2].into_iter().enumerate() {
-        number.when(does(deed), edge as u128);
+    number.when(does(Act::LastRound), rounds - 1);
+    for (edge, act) in [0u8, 1, 2].map(|edge| (edge, Act::Edge(edge))) {
+        number.when(does(act), u128::from(edge));
     }
+    number.when(does(Act::Beside), 0);
     number.when(parts.word.jumps(Jump::Rounds) & number.q().any(), number.q() - 1).q()
 }
 
 /// A checked number does not fit.
 fn unfit<'m>(parts: &Parts<'_, 'm>, beside: Option<Signal<'m>>, walked: [Signal<'m>; 2]) -> Signal<'m> {
-    let checks = parts.later("checks", parts.word.does(Deed::Check));
+    let checks = parts.later("checks", parts.word.does(Act::Check));
     let checked = parts.later("checked", checks);
     let of_lane = |lane: usize| {
         let stays = parts.of_lane(lane, "stays");
@@ -163,19 +171,19 @@ fn unfit<'m>(parts: &Parts<'_, 'm>, beside: Option<Signal<'m>>, walked: [Signal<
     };
     let any = (0..parts.lanes.len()).map(of_lane).reduce(|any, one| any | one).unwrap_or(checked);
     let unfit = parts.m.reg("unfit", 1).doc("a checked number does not fit");
-    unfit.when(checked & any, 1).when(parts.word.does(Deed::Judge), 0).q()
+    unfit.when(checked & any, 1).when(parts.word.does(Act::Judge), 0).q()
 }
 
 /// Doublings that are left, and whether they are a channel's.
 fn count<'m>(
     parts: &Parts<'_, 'm>,
-    does: &impl Fn(Deed) -> Signal<'m>,
+    does: &impl Fn(Act) -> Signal<'m>,
     number: Signal<'m>,
 ) -> (Signal<'m>, Signal<'m>) {
     const BITS: u32 = 7;
     let Parts { m, plan, word, .. } = parts;
     let scale = m.reg("scale", BITS).doc("i: the modulus of channels is the area times 2^i");
-    scale.when(does(Deed::LastRound), 0).when(does(Deed::Scale), scale.q() + 3);
+    scale.when(does(Act::LastRound), 0).when(does(Act::Scale), scale.q() + 3);
     let rounds = most_doublings(plan);
     let of = |doublings: u32| m.lit(BITS, doublings.into());
     let mut most = of(rounds[0]);
@@ -184,9 +192,9 @@ fn count<'m>(
     }
     let count = m.reg("count", BITS).doc("doublings that are left");
     count.when(word.jumps(Jump::Again), count.q() - 1);
-    count.when(word.does(Deed::TimesT), u128::from(plan.widths().center_fraction));
-    count.when(word.does(Deed::TimesK), most + scale.q());
+    count.when(word.does(Act::TimesT), u128::from(plan.widths().center_fraction));
+    count.when(word.does(Act::TimesK), most + scale.q());
     let of_channels = m.reg("of_channels", 1).doc("they are a channel's");
-    of_channels.when(word.does(Deed::TimesT), 0).when(word.does(Deed::TimesK), 1);
+    of_channels.when(word.does(Act::TimesT), 0).when(word.does(Act::TimesK), 1);
     (count.q(), of_channels.q())
 }

@@ -1,9 +1,10 @@
 //! The factors of a sum, and the digits that have come up.
 
+use edgewalk_machine::sequencer::word::Act;
 use edgewalk_netlist::{Reg, Signal};
 
 use super::Parts;
-use super::code::{Deed, Jump};
+use super::code::Jump;
 use super::shape::factor_bits;
 
 /// The factors of the lanes that have their own.
@@ -94,7 +95,7 @@ impl<'m> Digits<'m> {
         let word = &parts.word;
         let consumes = word.jumps(Jump::Digits) | word.jumps(Jump::More) | (word.jumps(Jump::Zeros) & zero);
         let consumes = consumes.named_doc("consumes", "the digits are done");
-        let shifts = (consumes | word.does(Deed::Shift)).named("shifts");
+        let shifts = (consumes | word.does(Act::Shift)).named("shifts");
         for (lane, pair) in self.pairs.iter().enumerate() {
             let loaded = parts.of_lane(lane, "factor");
             for (register, loads) in pair.iter().zip([self.loads_f, self.loads_g]) {

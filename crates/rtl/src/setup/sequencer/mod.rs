@@ -14,11 +14,12 @@ use std::sync::Arc;
 use edgewalk_machine::Plan;
 use edgewalk_machine::sequencer::{Program, edges_are_beside};
 use edgewalk_machine::units::setup::SPEC;
-use edgewalk_netlist::{BuildErrors, Instance, Module, Netlist, Signal};
+use edgewalk_netlist::{BuildErrors, Instance, Module, Netlist, Reg, Signal};
 
 use crate::light_pass::LightPass;
 use crate::ports::Interface;
 use code::Decoded;
+pub use code::{RomWord, program_rom};
 use control::Control;
 use digits::Digits;
 
@@ -40,6 +41,8 @@ struct Parts<'a, 'm> {
     lanes: Vec<Instance<'m>>,
     /// The word that is executed.
     word: Decoded<'m>,
+    /// Thin and flat of the triangle or line that is worked on, in a machine that takes lines.
+    role: Option<[Reg<'m>; 2]>,
     /// The word is valid: the ROM has been read since the reset.
     runs: Signal<'m>,
 }
@@ -78,7 +81,11 @@ pub(super) fn setup(plan: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
     let word = code::rom(&m, program, next.q());
     let runs = m.reg("runs", 1).doc("the first word is there").reset(0).set(1).q();
     let lanes = lanes(&m, plan, program)?;
-    let parts = Parts { m: &m, plan, program, lanes, word, runs };
+    let role = plan.polygon.has_lines().then(|| {
+        let taken = |name: &str, doc: &str| m.reg(&format!("taken_{name}"), 1).doc(doc);
+        [taken("thin", "a line is worked on"), taken("flat", "one with x and y exchanged")]
+    });
+    let parts = Parts { m: &m, plan, program, lanes, word, role, runs };
 
     let digits = Digits::new(&parts);
     let control = Control::new(&parts, &digits, prim_ready);
@@ -88,17 +95,29 @@ pub(super) fn setup(plan: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
     let prim = results::results(&parts, &control, &ports.gives_link().fields);
     for (name, value) in [("kt", input.kt), ("tag", triangle.get("tag"))] {
         if let (Some(register), Some(value)) = (prim.get(name), value) {
-            register.when(input.last, value.trunc(register.q().width()));
+            let taken = m
+                .reg(&format!("taken_{name}"), register.q().width())
+                .doc("of the triangle that is worked on");
+            taken.when(input.last, value.trunc(register.q().width()));
+            register.when(control.done, taken.q());
         }
     }
+    if let Some([thin, flat]) = parts.role {
+        thin.when(input.last, triangle["thin"]);
+        flat.when(input.last, triangle["thin"] & triangle["flat"]);
+        prim["thin"].when(control.done, thin.q());
+        prim["flat"].when(control.done, flat.q());
+    }
     if let Some(record) = prim.get("record") {
+        let bits = plan.shade.record_bits;
+        let taken = m.reg("taken_record", bits).doc("number of the triangle that is worked on");
         // Culled triangles count: the first after a reset has record 0.
-        record.reset((1 << plan.shade.record_bits) - 1).when(input.last, record.q() + 1);
+        taken.reset((1 << bits) - 1).when(input.last, taken.q() + 1);
+        record.when(control.done, taken.q());
     }
 
     ports.take_ready(control.idle);
     ports.give(control.prim_there, |name| match name {
-        "major_right" => control.right,
         _ => prim[name].q(),
     });
     m.finish()

@@ -1,6 +1,7 @@
 //! The prim: its registers take A and W of the lanes two clocks behind the word that gives them.
 
 use edgewalk_machine::Field;
+use edgewalk_machine::sequencer::edges_are_beside;
 use edgewalk_machine::sequencer::word::Give;
 use edgewalk_machine::units::tokens::EDGES;
 use edgewalk_netlist::Signal;
@@ -14,15 +15,13 @@ use crate::wires::{Registers, parts as parts_of};
 pub(super) fn results<'m>(parts: &Parts<'_, 'm>, control: &Control<'m>, fields: &[Field]) -> Registers<'m> {
     let m = parts.m;
     m.comment("The prim.");
-    let mut kept = parts_of(fields);
-    kept.retain(|field| field.name != "major_right");
-    let prim = Registers::new(m, "prim", kept);
+    let prim = Registers::new(m, "prim", parts_of(fields));
+    prim["major_right"].when(control.done, control.right);
     let behind = |name: &str, signal: Signal<'m>| {
         parts.later(&format!("{name}_given"), parts.later(&format!("{name}_giving"), signal))
     };
     let give = behind("result", parts.word.get("give"));
     let number = behind("number", control.number);
-    let beside = control.beside.map(|beside| behind("beside", beside));
     let gives = |what: Give| give.eq(number_of(what));
     let t = parts.plan.widths().center_fraction;
     let rest = |lane: usize| parts.of_lane(lane, "rest");
@@ -35,11 +34,10 @@ pub(super) fn results<'m>(parts: &Parts<'_, 'm>, control: &Control<'m>, fields: 
         lines(name, what);
     }
     for (edge, name) in EDGES.iter().enumerate() {
-        let lane = if beside.is_some() { edge } else { 0 };
-        let turn = match (beside, edge) {
-            (Some(beside), 0) => beside,
-            (Some(beside), _) => beside & control.walked[edge - 1],
-            (None, _) => number.eq(edge as u128),
+        let beside = edges_are_beside(parts.plan);
+        let lane = if beside { edge } else { 0 };
+        let gives = |what: Give| {
+            if beside { gives(what) } else { gives(what) & number.eq(edge as u128) }
         };
         let whole = parts.of_lane(lane, "whole");
         for (part, what) in [("m", Give::M), ("q", Give::Qf), ("f", Give::Qf), ("r", Give::R), ("c", Give::C)]
@@ -51,8 +49,11 @@ pub(super) fn results<'m>(parts: &Parts<'_, 'm>, control: &Control<'m>, fields: 
                 "q" => whole.trunc(bits),
                 _ => rest(lane).slice(t + bits - 1, t),
             };
-            // Of an edge that is not walked all is 0.
-            register.when(gives(Give::N1), 0).when(gives(what) & turn, value);
+            register.when(gives(what), value);
+            if let Some(part) = edge.checked_sub(1) {
+                // Of an edge that is not walked all is 0.
+                register.when(gives(what) & !control.walked[part], 0);
+            }
         }
     }
     for (place, channel) in parts.plan.channels().iter().enumerate() {

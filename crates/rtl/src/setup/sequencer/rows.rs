@@ -23,6 +23,10 @@ pub(super) fn connect<'m>(
     let get = |name: &str| word.get(name);
     let only = get("only");
     let allowed = !(only.eq(3) & control.walked[0]) & !(only.eq(4) & !control.right);
+    let allowed = match parts.role {
+        Some([thin, _]) => allowed & !(only.eq(5) & !thin.q()),
+        None => allowed,
+    };
     let steps = (get("steps") & *runs & allowed).named("starts_step");
     let later = |name: &str, signal| parts.later(name, signal);
     let minus = get("minus") ^ (get("by_side") & control.right);
@@ -35,18 +39,24 @@ pub(super) fn connect<'m>(
         ("only_positive", later("step_only_positive", only.eq(2))),
     ];
     let twice = |name: &str, signal| later(&format!("{name}_now"), later(&format!("{name}_next"), signal));
-    let write_row = twice("write_row", get("write_row")).zext(ROW_BITS);
+    let write_row = get("write_row");
+    let number = control.number & get("write_numbered").sext(3);
+    let write_row = m.cat(&[write_row.slice(write_row.width() - 1, 3), write_row.trunc(3) | number]);
+    let write_row = input.fires.mux(input.row, twice("write_row", write_row).zext(ROW_BITS));
     let write_a = twice("write_a", get("write_a") & *runs);
     let write_w = twice("write_w", get("write_w") & *runs);
     let raised = later("step_raised", get("raised"));
     let number = later("step_number", control.number);
     let steps_later = later("does_step", steps);
     let pass = light_pass.number(m, 1, 0, 1);
+    let rows: Vec<_> =
+        (0..parts.lanes.len().min(3)).map(|lane| row(parts, control, digits, lane, pass)).collect();
     for (lane, instance) in parts.lanes.iter().enumerate() {
-        instance.connect("read_row", row(parts, control, digits, lane, pass));
+        // The fourth lane has no edge.
+        instance.connect("read_row", *rows.get(lane).unwrap_or(&rows[0]));
         instance.connect("takes", input.takes[lane]);
         instance.connect("taken", input.taken[lane]);
-        instance.connect("write_row", input.takes[lane].mux(input.row, write_row));
+        instance.connect("write_row", write_row);
         instance.connect("write_a", write_a);
         instance.connect("write_w", write_w);
         for (name, signal) in told {
@@ -115,11 +125,15 @@ fn row<'m>(
     let part = row.trunc(PART_BITS);
     let value = (control.number.zext(PART_BITS) + super::code::FIRST_VALUE).named(&format!("value{lane}"));
     let part = part.all().mux(value, part);
-    let of_vertex = m.cat(&[m.lit(1, 1), of_order, part]);
+    let of_vertex = m.cat(&[m.lit(2, 2), of_order, part]);
     let is = |mode: Mode| word.is_mode(mode);
     let of_vertices = is(Mode::Vertex) | is(Mode::Upper) | is(Mode::Lower);
-    let with_pass = m.cat(&[row.slice(ROW_BITS - 1, 1), pass]);
+    let numbered = m.cat(&[row.slice(ROW_BITS - 1, 3), row.trunc(3) | control.number]);
+    let side = row.slice(1, 1);
+    let side = parts.role.map_or(side, |[_, flat]| side ^ flat.q());
+    let with_pass = m.cat(&[row.slice(ROW_BITS - 1, 2), side, pass]);
     let named =
         is(Mode::Digits).mux(low(digit), is(Mode::Edge).mux(low(edge), is(Mode::Pass).mux(with_pass, row)));
+    let named = is(Mode::Number).mux(numbered, named);
     of_vertices.mux(of_vertex, named).named(&format!("row{lane}"))
 }

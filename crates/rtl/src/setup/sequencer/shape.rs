@@ -3,7 +3,7 @@
 use edgewalk_machine::sequencer::{Program, rounds};
 use edgewalk_machine::{Channel, Plan};
 
-use super::code::{FIRST_VALUE, PART_BITS};
+use super::code::{FIRST_VALUE, PART_BITS, VERTICES};
 use super::lane::Shape;
 
 /// Bits of a factor: what is sheared may be twice as long as a difference.
@@ -78,7 +78,7 @@ fn firsts(plan: &Plan, lane: usize, bits: u32) -> Vec<(usize, u128, String)> {
     let first = |(round, channel): (usize, &Channel)| {
         let rounds = channel.kind.is_rounded() && channel.fraction > 0;
         let half = if rounds { 1u128 << (channel.fraction - 1) } else { 0 };
-        let place = (1 << 6 | 3 << PART_BITS) + FIRST_VALUE as usize + round;
+        let place = (VERTICES | 3 << PART_BITS | FIRST_VALUE) as usize + round;
         (place, (p / 2 + half * p) & ((1 << bits) - 1), format!("k.{}", channel.name))
     };
     channels(plan, lane).map(first).collect()

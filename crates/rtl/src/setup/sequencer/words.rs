@@ -4,13 +4,15 @@ use edgewalk_machine::Channel;
 use edgewalk_netlist::Signal;
 
 use super::Parts;
-use super::code::{FIRST_VALUE, PART_BITS, ROW_BITS};
+use super::code::{FIRST_VALUE, PART_BITS, ROW_BITS, VERTICES};
 use super::control::Control;
 
 /// What the words do.
 pub(super) struct Input<'m> {
     /// The row that a word goes to.
     pub row: Signal<'m>,
+    /// A word is taken.
+    pub fires: Signal<'m>,
     /// A word of this lane is taken.
     pub takes: Vec<Signal<'m>>,
     /// The word as its row has it.
@@ -51,8 +53,8 @@ pub(super) fn words<'m>(
     // Lane l has the channels l, l + lanes, …: the first of them at its first place.
     let round = channel.shr(lane_bits) + FIRST_VALUE;
     let place = coordinate.mux(part.q(), round);
-    let row = m.cat(&[m.lit(1, 1), vertex.q(), place]);
-    debug_assert_eq!(row.width(), ROW_BITS);
+    let row = m.cat(&[m.lit(2, 2), vertex.q(), place]);
+    debug_assert_eq!((row.width(), 2 << (ROW_BITS - 2)), (ROW_BITS, VERTICES));
     let takes = (0..lanes).map(|lane| {
         if lanes == 1 {
             return fires;
@@ -62,6 +64,7 @@ pub(super) fn words<'m>(
     let taken = (0..lanes).map(|lane| taken(parts, lane, data, coordinate, channel));
     Input {
         row,
+        fires,
         takes: takes.collect(),
         taken: taken.collect(),
         last,

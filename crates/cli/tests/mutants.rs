@@ -1,0 +1,179 @@
+//! `edgewalk mutants`: single faults of our Verilog through a bench of the user's, by its command.
+
+use crate::support::edgewalk;
+use edgewalk_machine::Plan;
+use edgewalk_netlist::mutate::mutants;
+use edgewalk_vectors::{Runs, Suite, Unit, design};
+use serde_json::Value;
+use std::collections::BTreeSet;
+use std::fs;
+use std::path::Path;
+
+fn run(folder: &Path, arguments: &[&str]) -> (Option<i32>, String, String) {
+    let output = edgewalk(folder, arguments).output().expect("the program runs");
+    let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
+    (output.status.code(), text(&output.stdout), text(&output.stderr))
+}
+
+/// The report of a run that ends with 0.
+fn report(folder: &Path, arguments: &[&str]) -> Value {
+    let (code, out, error) = run(folder, &[arguments, &["--json"]].concat());
+    assert_eq!(code, Some(0), "{error}");
+    serde_json::from_str(&out).expect("JSON")
+}
+
+/// A bench by the directory of a suite of PIXEL.
+fn vectors(folder: &Path, out: &str, more: &[&str]) {
+    let arguments = ["vectors", "--suite", "hazards", "--no-csv", "--quiet", "--out", out];
+    let (code, _, error) = run(folder, &[&arguments, more].concat());
+    assert_eq!(code, Some(0), "{error}");
+}
+
+const MAKE: &str = "make icarus HDL=\"{hdl}\"";
+
+fn survivors(report: &Value) -> BTreeSet<String> {
+    let list = report["survivors"].as_array().expect("a list");
+    list.iter().map(|survivor| survivor["fault"].as_str().expect("a text").to_owned()).collect()
+}
+
+/// From outside the project's bench finds what lock-step finds with the same suite, on the same sample. A bench that looks
+/// at colours alone finds less, and says which fault it missed, in which line.
+#[test]
+fn a_bench_is_scored_from_outside() {
+    let folder = tempfile::tempdir().expect("a folder");
+    vectors(folder.path(), "v", &["--unit", "pixel"]);
+    let sample = ["mutants", "--unit", "pixel", "--sample", "16", "--seed", "3"];
+    let ours = [&sample[..], &["--in", "v/hazards_pixel", "--bench", MAKE, "--out", "ours"]].concat();
+    let outside = report(folder.path(), &ours);
+
+    let machine = Plan::default();
+    let pixel = Unit::named("pixel").expect("a unit");
+    let netlist = design::netlist(&machine, pixel).expect("a checked machine");
+    let suite = Suite::named(&machine, "hazards", 1, 0).expect("listed");
+    let trace = Runs::new(&machine, &suite, suite.state).capture(pixel, suite.stalls);
+    let faults = mutants(&netlist);
+    let tried: Vec<usize> = rows(folder.path(), "ours").into_iter().map(|(fault, _)| fault).collect();
+    assert_eq!(tried.len(), 16);
+    let not_seen = tried.iter().filter(|fault| trace.lockstep(&faults[**fault].apply(&netlist)).is_ok());
+    let not_seen: BTreeSet<String> = not_seen.map(|fault| faults[*fault].description.clone()).collect();
+    assert_eq!(survivors(&outside), not_seen, "{outside}");
+    assert_eq!(outside["faults"], faults.len());
+    assert_eq!(outside["found"], 16 - not_seen.len());
+
+    let colours = "unit = \"pixel\"\ntop = \"edgewalk_pixel\"\nfiles = [\"v/hazards_pixel/hdl/edgewalk_pixel.v\"]\n\
+        [out.frag]\nabsent = [\"addr\", \"z\", \"fence\"]\n";
+    fs::write(folder.path().join("colours.toml"), colours).expect("written");
+    vectors(folder.path(), "c", &["--dut", "colours.toml"]);
+    let theirs = [&sample[..], &["--in", "c/hazards_pixel", "--bench", MAKE, "--out", "theirs"]].concat();
+    let less = report(folder.path(), &theirs);
+    assert!(
+        less["share"].as_f64().expect("a number") < outside["share"].as_f64().expect("a number") - 10.0,
+        "{less}"
+    );
+    let only_theirs: Vec<String> = survivors(&less).difference(&survivors(&outside)).cloned().collect();
+    assert!(only_theirs.len() >= 2, "{less}");
+    let shown = less["survivors"].as_array().expect("a list").iter();
+    let lines = |survivor: &Value, way: &str| survivor[way].as_array().map_or(0, Vec::len);
+    assert!(shown.clone().all(|s| lines(s, "with") + lines(s, "without") > 0), "{less}");
+    // A threshold that is missed.
+    let (code, text, _) = run(folder.path(), &[&theirs[..], &["--least", "100"]].concat());
+    assert!(code == Some(1) && text.contains(&format!("found {} / 16", less["found"])), "{text}");
+    let named = &only_theirs[0];
+    assert!(
+        text.lines().any(|line| line.starts_with("survived: ") && line.contains(named.as_str())),
+        "{text}"
+    );
+}
+
+/// Faults and verdicts that are kept in a folder, in the order in which they were tried.
+fn rows(folder: &Path, out: &str) -> Vec<(usize, String)> {
+    let text = fs::read_to_string(folder.join(out).join("verdicts.jsonl")).expect("written");
+    let row = |line: &str| {
+        let row: Value = serde_json::from_str(line).expect("JSON");
+        let fault = row["fault"].as_u64().expect("a number") as usize; // few
+        (fault, row["verdict"].as_str().expect("a text").to_owned())
+    };
+    text.lines().map(row).collect()
+}
+
+/// A run goes on where it was cut; another sample, command or folder has verdicts of its own.
+#[test]
+fn a_run_that_was_cut_goes_on() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path();
+    fs::create_dir(path.join("b")).expect("made");
+    // The design without a fault has the reset of `frag_valid`; each run leaves a mark outside.
+    let marks = path.join("marks");
+    let bench = format!("cat {{hdl}} >sum; echo x >>{}; cksum <sum", marks.display());
+    let arguments = |sample: &'static str| {
+        vec!["mutants", "--unit", "span", "--in", "b", "--bench", "", "--out", "m", "--sample", sample]
+    };
+    let go = |sample: &'static str, bench: &str| {
+        let mut arguments = arguments(sample);
+        arguments[6] = bench;
+        let report = report(path, &arguments);
+        let runs = fs::read_to_string(&marks).expect("a file").lines().count();
+        fs::remove_file(&marks).expect("removed");
+        (report["tried"].as_u64(), runs)
+    };
+    assert_eq!(go("4", &bench), (Some(4), 5));
+    let first = rows(path, "m");
+    // The last verdict is cut short: that fault is tried again.
+    let text = fs::read_to_string(path.join("m/verdicts.jsonl")).expect("a file");
+    fs::write(path.join("m/verdicts.jsonl"), &text[..text.len() - 5]).expect("written");
+    assert_eq!(go("4", &bench), (Some(4), 2));
+    assert_eq!(go("4", &bench), (Some(4), 1), "all are known");
+    // The folder of the bench is another.
+    fs::write(path.join("b/more"), "x").expect("written");
+    assert_eq!(go("4", &bench), (Some(4), 5));
+    assert!(first.iter().all(|(_, verdict)| verdict == "survived"));
+}
+
+/// Commands that cannot score anything, and one that hangs on a fault.
+#[test]
+fn a_bench_that_cannot_score_is_refused() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let run = |bench: &str, more: &[&str]| {
+        let arguments = ["mutants", "--unit", "pixel", "--sample", "2", "--bench", bench];
+        run(folder.path(), &[&arguments, more].concat())
+    };
+    let (code, _, error) = run("echo no such bench; false", &[]);
+    assert_eq!(code, Some(2), "{error}");
+    assert!(
+        error.contains("--bench: the design without a fault does not pass")
+            && error.contains("no such bench"),
+        "{error}"
+    );
+    let (code, _, error) = run("sleep 9", &["--limit", "1"]);
+    assert!(code == Some(2) && error.contains("takes longer than --limit 1 s"), "{error}");
+    let (code, _, error) = run("true", &["--in", "none"]);
+    assert!(code == Some(2) && error.contains("--in none: no such folder"), "{error}");
+    let (code, _, error) = run("true", &["--unit", "blend"]);
+    assert_eq!(code, Some(2), "{error}");
+    // The first run, without a fault, is quick; those behind it are not.
+    let bench = format!("if test -e {0}/ran; then sleep 9; fi; touch {0}/ran", folder.path().display());
+    let (code, out, error) = run(&bench, &["--limit", "1", "--json"]);
+    assert_eq!(code, Some(0), "{error}");
+    let report: Value = serde_json::from_str(&out).expect("JSON");
+    assert_eq!((&report["found"], &report["found_by_time"]), (&Value::from(2), &Value::from(2)));
+}
+
+/// Our PIXEL under the names of `docs/own_rtl/pixel.toml` passes the bench for that design, and its faults fail.
+#[test]
+fn faults_stand_in_for_a_users_design() {
+    let folder = tempfile::tempdir().expect("a folder");
+    for name in ["pixel.toml", "my_pixel.v", "depth.toml", "my_depth.v"] {
+        let own = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs/own_rtl")).join(name);
+        fs::copy(own, folder.path().join(name)).expect("copied");
+    }
+    for unit in ["pixel", "depth"] {
+        let dut = format!("{unit}.toml");
+        vectors(folder.path(), "v", &["--dut", &dut]);
+        let folder_of_bench = format!("v/hazards_{unit}");
+        let arguments =
+            ["mutants", "--dut", &dut, "--sample", "6", "--in", &folder_of_bench, "--bench", MAKE];
+        let report = report(folder.path(), &arguments);
+        assert_eq!(report["unit"], unit);
+        assert!(report["found"].as_u64().is_some_and(|found| found >= 3), "{report}");
+    }
+}

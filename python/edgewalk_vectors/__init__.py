@@ -1,0 +1,15 @@
+"""Replays a directory of edgewalk's test vectors into a design under cocotb.
+
+    from edgewalk_vectors import replay
+    test = replay("out/v/hazards_pixel")
+
+`run("out/v/hazards_pixel")` builds the design of the directory with a simulator and runs that test;
+`python -m edgewalk_vectors DIR` does it from a shell. Of a directory of `edgewalk vectors --dut` the design is the user's.
+"""
+
+from .bench import Bench, Fault
+from .directory import Directory, VectorsError
+from .replay import replay
+from .run import run
+
+__all__ = ["Bench", "Directory", "Fault", "VectorsError", "replay", "run"]

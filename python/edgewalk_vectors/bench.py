@@ -1,0 +1,226 @@
+"""The bench of a directory, clock by clock, without a simulator.
+
+In each cycle `drive()` gives the inputs by the unit's names, and `sample(outputs)` takes the outputs before the clock's
+edge. An output with unknown bits is None.
+"""
+
+
+class Fault(AssertionError):
+    """What a design did wrong."""
+
+
+SHOWN = 5  # faults of a channel that are told
+
+
+class Source:
+    """Offers tokens in order; one that is offered stays until it is taken."""
+
+    def __init__(self, channel, tokens, willing):
+        self.name, self.fields, self.tokens, self.willing = channel["name"], channel["fields"], tokens, willing
+        self.sent, self.held = 0, False
+
+    def drive(self, cycle, inputs):
+        self.valid = self.sent < len(self.tokens) and (self.held or willing(self.willing, cycle))
+        inputs[f"{self.name}_valid"] = int(self.valid)
+        token = self.tokens[self.sent] if self.valid else 0
+        for field in self.fields:
+            inputs[field["port"]] = token >> field["lsb"] & (1 << field["width"]) - 1
+
+    def sample(self, outputs, moved):
+        fires = self.valid and outputs.get(f"{self.name}_ready") == 1
+        self.sent += fires
+        self.held = self.valid and not fires
+        if fires:
+            moved[self.name] = {}
+
+
+class Memory(Source):
+    """Gives the words of the addresses that were read, in order."""
+
+    def __init__(self, channel, memory, directory, pattern):
+        super().__init__(channel, [], pattern)
+        self.memory, self.clear = memory, int(memory["clear"], 16)
+        start = memory.get("start")
+        self.words = dict(enumerate(directory.numbers(start))) if start else {}
+        self.waiting = []
+
+    def drive(self, cycle, inputs):
+        due = bool(self.waiting) and self.waiting[0][0] <= cycle
+        self.valid = due and (self.held or willing(self.willing, cycle))
+        inputs[f"{self.name}_valid"] = int(self.valid)
+        word = self.waiting[0][1] if self.valid else 0
+        for field in self.fields:
+            inputs[field["port"]] = word >> field["lsb"] & (1 << field["width"]) - 1
+
+    def sample(self, outputs, moved):
+        fires = self.valid and outputs.get(f"{self.name}_ready") == 1
+        self.held = self.valid and not fires
+        if fires:
+            self.waiting.pop(0)
+            moved[self.name] = {}
+
+    def serve(self, cycle, moved):
+        """A read sees the word before a write of its own cycle."""
+        read = moved.get(self.memory["read"])
+        if read:
+            address = next(iter(read.values()))
+            self.waiting.append((cycle + self.memory["latency"], self.words.get(address, self.clear)))
+        write = self.memory.get("write")
+        token = moved.get(write["channel"]) if write else None
+        if token and ("enable" not in write or token[write["enable"]]):
+            self.words[token[write["address"]]] = token[write["word"]]
+
+
+class Sink:
+    """Compares the tokens that come out, and the cycles in which they do where these count."""
+
+    def __init__(self, channel, directory, pattern, absent):
+        self.name, self.channel, self.willing = channel["name"], channel, pattern
+        self.fields = [field for field in channel["fields"] if field["port"] not in absent]
+        self.wanted = directory.numbers(channel["tokens"])
+        self.cycles = directory.steps(channel["moved"])
+        triangles = channel["triangles"]
+        self.triangles = directory.steps(triangles) if triangles else None
+        self.directory, self.came, self.faults, self.last = directory, 0, [], None
+        self.always = f"{self.name}_ready" in absent
+
+    def drive(self, cycle, inputs):
+        self.ready = self.always or willing(self.willing, cycle)
+        inputs[f"{self.name}_ready"] = int(self.ready)
+
+    def sample(self, cycle, outputs, moved):
+        valid = outputs[f"{self.name}_valid"]
+        token = {field["port"]: outputs[field["port"]] for field in self.fields}
+        if self.last is not None and (valid != 1 or token != self.last):
+            self.faults.append(f"{self.name}: cycle {cycle}: the token changed, or valid fell, before it was taken")
+        self.last = token if valid == 1 and not self.ready else None
+        if valid == 0 or not self.ready:
+            return
+        if self.came == len(self.wanted):
+            self.faults.append(f"{self.name}: cycle {cycle}: one more than the {self.came} expected")
+            return
+        want = self.wanted[self.came]
+        for field in self.fields:
+            wanted, found = want >> field["lsb"] & (1 << field["width"]) - 1, token[field["port"]]
+            if valid is None or found != wanted:
+                shown = "unknown bits" if found is None else f"{found:x}"
+                self.faults.append(f"{self.where(cycle)}: {field['port']}: expected {wanted:x}, found {shown}")
+        if self.channel["compare"] == "cycle" and cycle != self.cycles[self.came]:
+            self.faults.append(f"{self.where(cycle)}: expected in cycle {self.cycles[self.came]}")
+        # The memories go on with what ought to have come, so that one fault is not followed by many.
+        moved[self.name] = {
+            field["port"]: want >> field["lsb"] & (1 << field["width"]) - 1 for field in self.channel["fields"]
+        }
+        self.came += 1
+
+    def where(self, cycle):
+        text = f"{self.name}: token {self.came}"
+        if self.triangles is not None and self.came < len(self.triangles):
+            triangle = self.triangles[self.came]
+            text += f", triangle {triangle}, case {self.directory.case_of(triangle)}"
+        return f"{text}, cycle {cycle}"
+
+
+class Bench:
+    """Drives a design by a directory and compares what comes out.
+
+    `drive()` returns the inputs of a cycle, `sample(outputs)` takes its outputs and says whether the run goes on, and
+    `finish()` raises `Fault` unless everything expected came, as expected, and nothing else. Names are the unit's.
+    """
+
+    def __init__(self, directory):
+        manifest = directory.manifest
+        dut = manifest.get("dut") or {"absent": [], "compare": "cycle"}
+        pattern = {name: directory.numbers(file, 2) for name, file in manifest["stalls"]["patterns"].items()}
+        self.limits, self.levels, self.constants = manifest["limits"], manifest["side_inputs"], manifest["constants"]
+        self.patterns, self.expected = pattern, manifest["expected"]
+        memories = {memory["data"]: memory for memory in manifest["memories"]}
+        self.sources, self.memories, self.sinks = {}, [], []
+        for channel in manifest["channels"]:
+            name = channel["name"]
+            if channel["direction"] == "out":
+                self.sinks.append(Sink(channel, directory, pattern[name], dut["absent"]))
+            elif name in memories:
+                self.memories.append(Memory(channel, memories[name], directory, pattern[name]))
+            else:
+                tokens = directory.numbers(channel["tokens"])
+                self.sources[name] = Source(channel, tokens, pattern[name])
+        status = manifest["status"]
+        by_cycle = dut["compare"] == "cycle"
+        self.status = status["fields"] if by_cycle else []
+        self.during = status["during"]
+        changes = zip(directory.steps(status["moved"]), directory.numbers(status["tokens"]))
+        self.changes = list(changes) if by_cycle else []
+        self.seen, self.status_faults, self.shown = 0, [], None
+        self.cycle, self.quiet = 0, 0
+
+    def drive(self):
+        """The inputs of the next cycle, all of them but clock and reset."""
+        inputs = dict(self.constants)
+        for end in [*self.sources.values(), *self.memories, *self.sinks]:
+            end.drive(self.cycle, inputs)
+        for level in self.levels:
+            source = self.sources[level["while_tokens_of"]]
+            more = source.sent < len(source.tokens)
+            inputs[level["port"]] = int(more and not willing(self.patterns[level["port"]], self.cycle))
+        self.inputs = inputs
+        return inputs
+
+    def sample(self, outputs):
+        """Takes the outputs of the cycle; false when the run is at its end."""
+        moved = {}
+        for source in [*self.sources.values(), *self.memories]:
+            source.sample(outputs, moved)
+        for sink in self.sinks:
+            sink.sample(self.cycle, outputs, moved)
+        for memory in self.memories:
+            memory.serve(self.cycle, moved)
+        changed = self._watch(outputs)
+        self.quiet = 0 if moved or changed else self.quiet + 1
+        self.cycle += 1
+        return self.quiet <= self.limits["idle"] and self.cycle < self.limits["cycles"]
+
+    def _watch(self, outputs):
+        """Whether the status ports changed; a change that is not the one expected is a fault."""
+        if not self.status:
+            return False
+        value = 0
+        for field in self.status:
+            bits = outputs[field["port"]]
+            guard = self.during.get(field["port"])
+            if guard and outputs.get(guard, self.inputs.get(guard)) == 0:
+                bits = 0
+            value = None if bits is None or value is None else value | bits << field["lsb"]
+        if self.cycle > 0 and value == self.shown:
+            return False
+        self.shown = value
+        wanted = self.changes[self.seen] if self.seen < len(self.changes) else None
+        if (self.cycle, value) != wanted:
+            self.status_faults.append(f"status: change {self.seen}, cycle {self.cycle}: expected {wanted}, found {value}")
+        self.seen += wanted is not None
+        return True
+
+    @property
+    def checked(self):
+        """Tokens and changes of the status that were compared."""
+        return self.seen + sum(sink.came for sink in self.sinks)
+
+    def finish(self):
+        """Raises `Fault` unless all is right; returns what was checked."""
+        told = list(self.status_faults[:SHOWN])
+        for sink in self.sinks:
+            told += sink.faults[:SHOWN]
+            missing = len(sink.wanted) - sink.came
+            if missing:
+                told.append(f"{sink.where(self.cycle)}: never came, the first of {missing}")
+        if self.expected == 0 or not any(sink.wanted for sink in self.sinks):
+            told.append("nothing was compared")
+        if self.checked != self.expected:
+            told.append(f"checked {self.checked} / {self.expected}")
+        if told:
+            raise Fault("\n".join(told))
+        return self.checked
+
+
+def willing(pattern, cycle):
+    return pattern[cycle % len(pattern)] == 1

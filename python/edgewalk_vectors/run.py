@@ -1,0 +1,58 @@
+"""Builds the design of a directory with a simulator and replays the directory into it."""
+
+import importlib
+import os
+import shutil
+import tempfile
+import xml.etree.ElementTree as ElementTree
+from pathlib import Path
+
+from .directory import Directory, VectorsError
+
+# The variable by which the test in the simulator learns its directory.
+VARIABLE = "EDGEWALK_VECTORS"
+
+
+def runner(simulator):
+    """cocotb's runner, which has another name in each of its versions."""
+    for module in ["cocotb_tools.runner", "cocotb.runner"]:
+        try:
+            return importlib.import_module(module).get_runner(simulator)
+        except ImportError:
+            continue
+    raise VectorsError("cocotb is not installed; try: pip install cocotb")
+
+
+def run(directory, simulator="icarus", results=None):
+    """Replays a directory with `icarus` or `verilator`; true if everything expected came, and nothing else.
+
+    `results` is a file for the results in JUnit's form.
+    """
+    vectors = Directory(directory)
+    own = vectors.manifest.get("dut") or {"include": [], "parameters": {}, "files": []}
+    newer = any(str(name).endswith(".sv") for name in own["files"])
+    options = {"icarus": ["-g2012" if newer else "-g2001"], "verilator": ["-Wno-fatal", "--timescale", "1ns/1ps"]}
+    with tempfile.TemporaryDirectory() as work:
+        build = runner(simulator)
+        build.build(
+            sources=vectors.sources,
+            includes=own["include"],
+            parameters={name: value.strip('"') for name, value in own["parameters"].items()},
+            hdl_toplevel=vectors.module,
+            build_args=options.get(simulator, []),
+            build_dir=work,
+            timescale=("1ns", "1ps"),
+            always=True,
+        )
+        found = build.test(
+            hdl_toplevel=vectors.module,
+            test_module="edgewalk_vectors.in_simulator",
+            build_dir=work,
+            extra_env={VARIABLE: os.fspath(vectors.path)},
+            results_xml=os.fspath(Path(work) / "results.xml"),
+        )
+        if results:
+            shutil.copy(found, results)
+        cases = list(ElementTree.parse(found).iter("testcase"))
+        failed = [case for case in cases if case.find("failure") is not None or case.find("error") is not None]
+        return len(cases) == 1 and not failed
