@@ -227,7 +227,7 @@ impl<'a, const C: usize> Run<'a, C> {
     /// Whether a memory was cleared behind it.
     fn cycle(&mut self) -> bool {
         let cycle: Cycle<C> = self.rig.cycle(self.offered(), true);
-        if cycle.triangle {
+        if cycle.outputs.triangle {
             (self.taken, self.left) = (self.taken + 1, self.left - 1);
         } else if cycle.outputs.idle && self.left == 0 {
             return self.next();
