@@ -6,6 +6,7 @@ mod adding_a_unit;
 mod bad_input;
 mod bench;
 mod blend;
+mod circles;
 mod compare;
 mod demo;
 mod dither;

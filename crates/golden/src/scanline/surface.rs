@@ -4,7 +4,7 @@ use crate::cover::Cover;
 use crate::depth::compare;
 use crate::fill::Fill;
 use crate::fragment::{Fragment, Weight};
-use crate::picture::CLEARED;
+use crate::drawing::CLEARED;
 use crate::polygon::{EdgeTable, Grid, Span};
 use edgewalk_scene::{Polygon, Primitive, ShadeMode};
 use std::cmp::Ordering;
