@@ -61,5 +61,6 @@ mod threads;
 mod trace;
 mod tutorials;
 mod vectors;
+mod vectors_options;
 mod verdicts;
 mod verify;

@@ -131,7 +131,7 @@ impl<const C: usize> Span<C> {
     fn move_on(&mut self, line: &Line<C>, events: &mut Events) {
         let fresh = line.fresh | self.pend_fresh;
         let fence = line.fence | self.pend_fence;
-        let Some(Cut { start, end, side }) = self.cut(line) else {
+        let Some(Cut { start, end, turned, side }) = self.cut(line) else {
             self.pend_fresh = fresh;
             self.pend_fence = fence;
             events.span.empty_span += 1;
@@ -142,7 +142,7 @@ impl<const C: usize> Span<C> {
         let leftward = line.major_right && !self.textbook && !line.thin;
         let (x, count) =
             if leftward { (end - 1, end - start.max(0)) } else { (start, end.min(side) - start) };
-        let (x, y) = if line.flat { (line.y as i32, x as u32) } else { (x, line.y) }; // both on the screen
+        let (x, y) = if turned { (line.y as i32, x as u32) } else { (x, line.y) }; // both on the screen
         self.fifo.push(tokens::Span {
             x,
             y,
@@ -172,16 +172,18 @@ impl<const C: usize> Span<C> {
             (start.wrapping_sub(i32::from(self.textbook)), end)
         };
         let [width, height] = self.screen;
-        let side = if line.flat { height } else { width };
-        (end.min(side) > start.max(0)).then_some(Cut { start, end, side })
+        let turned = line.thin & line.flat;
+        let side = if turned { height } else { width };
+        (end.min(side) > start.max(0)).then_some(Cut { start, end, turned, side })
     }
 }
 
-/// The columns of a line from left to right, the last one excluded; of a pixel of a flat line its line, as x and y have changed
-/// places.
+/// The columns of a line from left to right, the last one excluded.
 struct Cut {
     start: i32,
     end: i32,
+    /// A pixel of a flat line: x and y have changed places, so these are lines.
+    turned: bool,
     /// Columns of the screen, or lines.
     side: i32,
 }
