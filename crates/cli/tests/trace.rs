@@ -1,17 +1,24 @@
 //! What a waveform shows: what can change, causes by name, tags only where the machine has them.
 
+use std::collections::{BTreeMap, BTreeSet};
 use std::process::Command;
 
 fn vcd(settings: &[&str]) -> String {
+    traced("vcd", settings).0
+}
+
+/// The file of a short run, and what the program printed.
+fn traced(kind: &str, settings: &[&str]) -> (String, String) {
     let folder = tempfile::tempdir().expect("a folder");
-    let out = folder.path().join("t.vcd");
+    let out = folder.path().join(format!("t.{kind}"));
     let small = ["screen.width=24", "screen.height=20", "screen.guard_bits=6"];
     let mut command = Command::new(env!("CARGO_BIN_EXE_edgewalk"));
-    command.args(["trace", "sphere", "--triangles", "2", "--cycles", "900", "--out"]).arg(&out);
+    command.args(["trace", "sphere", "--json", "--triangles", "2", "--cycles", "900", "--out"]).arg(&out);
     small.iter().chain(settings).for_each(|setting| _ = command.args(["--set", setting]));
     let output = command.output().expect("the program runs");
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-    std::fs::read_to_string(out).expect("written")
+    let printed = String::from_utf8(output.stdout).expect("text");
+    (std::fs::read_to_string(out).expect("written"), printed)
 }
 
 #[test]
@@ -75,4 +82,126 @@ fn nothing_to_trace_is_exit_code_2_with_its_reason() {
 #[test]
 fn tags_that_the_machine_has_are_traced() {
     assert!(vcd(&["memory.tag_bits=4"]).contains(" tri_tag $end"));
+}
+
+/// Of each bit by its path: transitions, and nanoseconds at 1.
+type Bits = BTreeMap<String, [u64; 2]>;
+
+/// Reads a VCD; also the transitions of all signals, each counted once whatever names it has.
+fn bits_of_vcd(text: &str, nanoseconds: u64) -> (Bits, u64) {
+    let (header, changes) = text.split_once("$enddefinitions $end").expect("a header");
+    let mut scopes: Vec<&str> = Vec::new();
+    let mut names: Vec<(String, &str, usize)> = Vec::new();
+    for line in header.lines() {
+        match line.split_whitespace().collect::<Vec<_>>()[..] {
+            ["$scope", "module", name, "$end"] => scopes.push(name),
+            ["$upscope", "$end"] => _ = scopes.pop(),
+            ["$var", "wire", width, id, name, "$end"] => {
+                names.push((format!("{}.{name}", scopes.join(".")), id, width.parse().expect("bits")));
+            }
+            _ => (),
+        }
+    }
+    let widths: BTreeMap<&str, usize> = names.iter().map(|(_, id, width)| (*id, *width)).collect();
+    let mut last: BTreeMap<&str, (u64, Vec<u8>)> = BTreeMap::new();
+    let mut counts: BTreeMap<&str, Vec<[u64; 2]>> = BTreeMap::new();
+    let mut now = 0;
+    let mut take = |id, now, bits: Option<Vec<u8>>| {
+        let counted = counts.entry(id).or_insert_with(|| vec![[0; 2]; widths[id]]);
+        if let Some((since, before)) = last.get(id) {
+            for (bit, count) in counted.iter_mut().enumerate() {
+                count[0] += u64::from(bits.as_ref().is_some_and(|bits| bits[bit] != before[bit]));
+                count[1] += u64::from(before[bit]) * (now - since);
+            }
+        }
+        bits.map(|bits| last.insert(id, (now, bits)));
+    };
+    for line in changes.lines() {
+        let digits = |text: &str, width: usize| -> Vec<u8> {
+            format!("{text:0>width$}").bytes().rev().map(|digit| digit - b'0').collect()
+        };
+        match line.split_at_checked(1) {
+            Some(("#", time)) => now = time.parse().expect("a time"),
+            Some(("b", rest)) => {
+                let (value, id) = rest.split_once(' ').expect("an identifier");
+                take(id, now, Some(digits(value, widths[id])));
+            }
+            Some((bit @ ("0" | "1"), id)) => take(id, now, Some(digits(bit, 1))),
+            _ => (),
+        }
+    }
+    widths.keys().for_each(|id| take(id, nanoseconds, None));
+    let clk = names.iter().find(|(path, ..)| path == "edgewalk.clk").expect("a clock").1;
+    let of_signals = counts.iter().filter(|(id, _)| **id != clk).flat_map(|(_, bits)| bits);
+    let all = of_signals.map(|count| count[0]).sum();
+    let bit_name = |path: &str, width, bit| match width {
+        1 => path.to_owned(),
+        _ => format!("{path}[{bit}]"),
+    };
+    let named = names.iter().flat_map(|(path, id, width)| {
+        let counted = counts[id].iter().enumerate();
+        counted.map(move |(bit, count)| (bit_name(path, *width, bit), *count))
+    });
+    (named.collect(), all)
+}
+
+/// Reads a SAIF file by the grammar of its standard: nested lists of words.
+fn bits_of_saif(text: &str, nanoseconds: u64) -> Bits {
+    let spaced = text.replace('(', " ( ").replace(')', " ) ");
+    let mut bits = Bits::new();
+    // Of each open list: its words so far.
+    let mut open: Vec<Vec<&str>> = vec![Vec::new()];
+    for word in spaced.split_whitespace() {
+        match word {
+            "(" => open.push(Vec::new()),
+            ")" => {
+                let list = open.pop().expect("as many closed as opened");
+                let values: Vec<&str> = open.last().expect("within the file").clone();
+                if let [key @ ("T0" | "T1" | "TX" | "TC" | "IG"), value] = list[..] {
+                    open.last_mut().expect("within a net").extend([key, value]);
+                } else if let [name, "T0", t0, "T1", t1, "TX", "0", "TC", tc, "IG", "0"] = list[..] {
+                    let [t0, t1, tc] = [t0, t1, tc].map(|value| value.parse::<u64>().expect("a number"));
+                    assert_eq!(t0 + t1, nanoseconds, "{name}");
+                    assert_eq!(values[..], ["NET"], "{name}");
+                    let scopes = open.iter().filter_map(|list| match list[..] {
+                        ["INSTANCE", scope, ..] => Some(scope),
+                        _ => None,
+                    });
+                    let path: Vec<&str> = scopes.chain([name]).collect();
+                    bits.insert(path.join(".").replace('\\', ""), [tc, t1]);
+                }
+            }
+            word => open.last_mut().expect("within the file").push(word),
+        }
+    }
+    assert_eq!(open.len(), 1, "as many closed as opened");
+    bits
+}
+
+#[test]
+fn transitions_are_those_of_the_waveform() {
+    let mut compared = 0;
+    for settings in [
+        &[][..],
+        &["interpolator.adders=1"],
+        &["blend.kind=constant", "memory.color_latency=2"],
+        &["setup.kind=sequenced", "setup.lanes=1"],
+        &["memory.latency=4"],
+    ] {
+        let (saif, report) = traced("saif", settings);
+        let report: serde_json::Value = serde_json::from_str(&report).expect("JSON");
+        let cycles = report["cycles"].as_u64().expect("a number");
+        let (wave, all) = bits_of_vcd(&vcd(settings), cycles * 10);
+        let counted = bits_of_saif(&saif, cycles * 10);
+        let differ: BTreeSet<_> =
+            wave.iter().filter(|(bit, count)| counted.get(*bit) != Some(count)).collect();
+        assert!(differ.is_empty(), "{settings:?}: {differ:?}");
+        assert_eq!(wave.len(), counted.len(), "{settings:?}");
+        assert!(wave.len() > 1000, "{settings:?}: {}", wave.len());
+        let units = report["units"].as_array().expect("units");
+        let sum: u64 = units.iter().map(|unit| unit["transitions"].as_u64().expect("a number")).sum();
+        assert_eq!(sum, all, "{settings:?}: the units' sums are all transitions");
+        compared += counted.len();
+    }
+    println!("{compared} bits compared");
 }

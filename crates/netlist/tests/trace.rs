@@ -4,7 +4,7 @@
 use std::io::Cursor;
 use std::sync::Arc;
 
-use edgewalk_netlist::{FstTrace, Labels, Module, Netlist, Simulator, VcdTrace};
+use edgewalk_netlist::{FstTrace, Labels, Module, Netlist, Simulator, Transitions, VcdTrace};
 
 /// Two counters of different width, one inside an instance inside an instance, each with a ROM that follows it.
 fn counters() -> Arc<Netlist> {
@@ -129,4 +129,45 @@ fn fst_reads_back() {
     let expected = run(|sim| trace.sample(sim).unwrap());
     trace.finish().unwrap();
     check(file.into_inner(), &expected);
+}
+
+/// Times and transitions of one bit in a SAIF file: T0, T1, TC.
+fn saif_net(text: &str, name: &str) -> [u64; 3] {
+    let line = text.lines().find(|line| line.trim().starts_with(&format!("({name} "))).expect(name);
+    ["T0", "T1", "TC"].map(|key| {
+        let (_, rest) = line.split_once(&format!("({key} ")).expect("the key is in the entry");
+        rest.split_once(')').expect("the key is closed").0.parse().expect("a number")
+    })
+}
+
+#[test]
+fn saif_counts_what_the_simulator_said() {
+    let mut file = Vec::new();
+    let mut trace = Transitions::new(&Simulator::new(&counters()), "top");
+    let values = run(|sim| trace.sample(sim));
+    trace.write_saif(&mut file).unwrap();
+    let text = String::from_utf8(file).unwrap();
+    assert!(text.contains("(DURATION 400)\n"), "{text}");
+    assert_eq!(saif_net(&text, "clk"), [200, 200, 79]);
+    let mut compared = 0;
+    for (column, name, bits) in [(0, "step", 1), (3, "rom_q", 6)] {
+        for bit in 0..bits {
+            let waves: Vec<u128> = values.iter().map(|row| row[column] >> bit & 1).collect();
+            let high = 10 * waves.iter().sum::<u128>() as u64;
+            let changes = waves.windows(2).filter(|pair| pair[0] != pair[1]).count() as u64;
+            let scope =
+                if column == 3 { text.split_once("(INSTANCE u_small").expect("the scope").1 } else { &text };
+            let name = if bits == 1 { name.to_owned() } else { format!("{name}\\[{bit}\\]") };
+            assert_eq!(saif_net(scope, &name), [400 - high, high, changes], "{name}");
+            let path =
+                if column == 3 { format!("u_middle.u_small.{}", name.replace('\\', "")) } else { name };
+            let counted = trace.bits()[&path];
+            assert_eq!((counted.transitions, counted.high), (changes, high / 10), "{path}");
+            compared += 1;
+        }
+    }
+    assert_eq!(compared, 7);
+    let units = trace.units();
+    let names: Vec<&str> = units.iter().map(|unit| unit.unit.as_str()).collect();
+    assert_eq!(names, ["", "u_large", "u_middle"]);
 }

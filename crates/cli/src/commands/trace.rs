@@ -1,4 +1,4 @@
-//! `edgewalk trace`: waveforms of the machine's netlist.
+//! `edgewalk trace`: waveforms of the machine's netlist, and counts of its transitions.
 
 use crate::Talk;
 use crate::document::document;
@@ -9,24 +9,26 @@ use crate::verdict::Verdict;
 use anyhow::{Context, Result, anyhow};
 use edgewalk_lockstep::StallKind;
 use edgewalk_machine::Activity;
-use edgewalk_netlist::{FstTrace, Labels, Simulator, VcdTrace};
+use edgewalk_netlist::{FstTrace, Labels, Simulator, Transitions, UnitTransitions, VcdTrace};
 use serde_json::json;
 use std::fs::File;
 use std::io::BufWriter;
 use std::path::PathBuf;
 
-/// Run the machine's netlist and write the waveform of every signal that can change, as VCD or FST.
+/// Run the machine's netlist and write the waveform or the transitions of every signal that can change.
 ///
-/// The ending of the file chooses the format. `activity_name` holds the cause of each cycle in words: as text in a
-/// VCD, as ASCII in an FST.
+/// The ending of the file chooses the format: VCD and FST are waveforms, SAIF counts transitions. `activity_name` holds the
+/// cause of each cycle in words: as text in a VCD, as ASCII in an FST. With SAIF the sums by unit are printed. A unit's bits
+/// are those of its registers, wires and outputs that have a name.
 #[derive(clap::Args)]
 #[command(after_help = "Examples:
   edgewalk trace sphere --out out/sphere.fst --triangles 20
-  edgewalk trace triangles.tri --out out/t.vcd --cycles 5000 --set interpolator.adders=1")]
+  edgewalk trace triangles.tri --out out/t.vcd --cycles 5000 --set interpolator.adders=1
+  edgewalk trace sphere --out out/sphere.saif --triangles 100 --cycles 100000")]
 pub struct Args {
     #[command(flatten)]
     source: Source,
-    /// Output file, .vcd or .fst
+    /// Output file, .vcd, .fst or .saif
     #[arg(long, value_name = "FILE")]
     out: PathBuf,
     /// Draw this many triangles of the input
@@ -40,10 +42,14 @@ pub struct Args {
 /// The outermost scope.
 const TOP: &str = "edgewalk";
 
-/// Either kind of waveform.
+/// The endings of the output file.
+const KINDS: [&str; 3] = ["vcd", "fst", "saif"];
+
+/// A file being written.
 enum Wave {
     Vcd(VcdTrace<BufWriter<File>>),
     Fst(Box<FstTrace<BufWriter<File>>>),
+    Saif(Box<Transitions>, BufWriter<File>),
 }
 
 /// Runs the command.
@@ -54,8 +60,8 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
     let size = (machine.width, machine.height);
     Verdict::drew(traced as u64).or_nothing(&args.source.input, 0, size)?;
     let kind = args.out.extension().and_then(|e| e.to_str()).unwrap_or_default();
-    if !["vcd", "fst"].contains(&kind) {
-        return Err(anyhow!("--out {}: the file must end in .vcd or .fst", args.out.display()));
+    if !KINDS.contains(&kind) {
+        return Err(anyhow!("--out {}: the file must end in .vcd, .fst or .saif", args.out.display()));
     }
     let name = args.out.file_name().and_then(|n| n.to_str()).context("--out: no file name")?;
     let folder = args.out.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(".".as_ref());
@@ -71,17 +77,61 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
         failure.is_ok() && cycles < args.cycles
     })?;
     failure.with_context(|| out.name(name))?;
+    let mut units = None;
     match wave {
         Some(Wave::Vcd(w)) => w.finish().with_context(|| out.name(name))?,
         Some(Wave::Fst(w)) => w.finish().map_err(|e| anyhow!("{}: {e}", out.name(name)))?,
+        Some(Wave::Saif(counted, mut file)) => {
+            counted.write_saif(&mut file).with_context(|| out.name(name))?;
+            units = Some(counted.units());
+        }
         None => {}
     }
     out.publish(&[name])?;
     talk.say(
-        || document("trace", json!({ "file": args.out, "cycles": cycles, "hash": machine.hash() })),
-        || format!("{cycles} cycles -> {}", args.out.display()),
+        || document("trace", report(args, cycles, machine.hash(), units.as_deref())),
+        || {
+            let table = units.as_deref().map(|units| table(units, cycles)).unwrap_or_default();
+            format!("{table}{cycles} cycles -> {}", args.out.display())
+        },
     )?;
     Ok(Verdict::Pass)
+}
+
+/// The run as JSON; `units` if transitions were counted.
+fn report(
+    args: &Args,
+    cycles: u64,
+    hash: impl serde::Serialize,
+    units: Option<&[UnitTransitions]>,
+) -> serde_json::Value {
+    let mut report = json!({ "file": args.out, "cycles": cycles, "hash": hash });
+    if let Some(units) = units {
+        let unit = |u: &UnitTransitions| json!({ "unit": unit_name(u), "bits": u.bits, "transitions": u.transitions });
+        report["units"] = units.iter().map(unit).collect();
+    }
+    report
+}
+
+/// The instance's name in the Verilog without `u_`; the top module has none.
+fn unit_name(unit: &UnitTransitions) -> &str {
+    match unit.unit.as_str() {
+        "" => "top",
+        name => name.strip_prefix("u_").unwrap_or(name),
+    }
+}
+
+/// Transitions by unit: the sum, its share of all, and the mean of a cycle.
+fn table(units: &[UnitTransitions], cycles: u64) -> String {
+    let all: u64 = units.iter().map(|unit| unit.transitions).sum();
+    let line = |unit: &UnitTransitions| {
+        let (bits, count) = (unit.bits, unit.transitions);
+        let share = 100.0 * count as f64 / all.max(1) as f64;
+        let mean = count as f64 / cycles.max(1) as f64;
+        format!("{:<10}{bits:>8}{count:>14}{share:>7.1} %{mean:>12.2}\n", unit_name(unit))
+    };
+    let head = format!("{:<10}{:>8}{:>14}{:>9}{:>12}\n", "unit", "bits", "transitions", "share", "a cycle");
+    units.iter().fold(head, |text, unit| text + &line(unit))
 }
 
 /// Takes a sample; the first opens the file, as it needs the simulator's list of signals.
@@ -96,12 +146,14 @@ fn sample(
         let labels = [Labels { signal: "activity", names: &names }];
         *wave = Some(match kind {
             "vcd" => Wave::Vcd(VcdTrace::new(file, sim, TOP, &labels)?),
+            "saif" => Wave::Saif(Box::new(Transitions::new(sim, TOP)), file),
             _ => Wave::Fst(Box::new(FstTrace::new(file, sim, TOP, &labels)?)),
         });
     }
     match wave {
         Some(Wave::Vcd(w)) => w.sample(sim)?,
         Some(Wave::Fst(w)) => w.sample(sim)?,
+        Some(Wave::Saif(counted, _)) => counted.sample(sim),
         None => {}
     }
     Ok(())

@@ -2,6 +2,7 @@
 //! registers and memories. Wires and ports cost nothing: they are names of a slot.
 
 use std::collections::BTreeMap;
+use std::ops::Range;
 
 use crate::netlist::{Instance, Netlist, NodeId, Source};
 use crate::ops::{Bits, Op};
@@ -47,6 +48,8 @@ pub(super) struct Flat {
     pub constant: Vec<bool>,
     /// Every named signal by its path, `instance.instance.name`.
     pub names: BTreeMap<String, Slot>,
+    /// The slots of each instance in the top module, and all that is in it.
+    pub units: Vec<(String, Range<Slot>)>,
     /// Every memory by its path.
     pub memory_names: BTreeMap<String, usize>,
 }
@@ -115,7 +118,11 @@ impl Builder {
         for instance in &netlist.instances {
             let Instance { name, module, connections, .. } = instance;
             let connections: Vec<Slot> = connections.iter().map(|id| at(*id)).collect();
+            let first = self.sources.len() as Slot;
             bases.push(self.module(module, &format!("{prefix}{name}."), Some(&connections)));
+            if prefix.is_empty() {
+                self.flat.units.push((name.clone(), first..self.sources.len() as Slot));
+            }
         }
         for (index, node) in netlist.nodes.iter().enumerate() {
             let slot = base + index as Slot;

@@ -91,6 +91,12 @@ impl Simulator {
         self.flat.widths[signal.0 as usize]
     }
 
+    /// The instance of the top module in which a signal is computed; empty if none.
+    pub fn unit(&self, signal: SignalId) -> &str {
+        let unit = self.flat.units.iter().find(|(_, slots)| slots.contains(&signal.0));
+        unit.map_or("", |(name, _)| name)
+    }
+
     /// Whether a signal is a constant, or computed from nothing else.
     pub fn is_constant(&self, signal: SignalId) -> bool {
         self.flat.constant[signal.0 as usize]

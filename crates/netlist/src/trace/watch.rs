@@ -36,6 +36,15 @@ pub(super) struct Watch {
     cycles: u64,
 }
 
+/// A signal whose value is another than in the last sample.
+pub(super) struct Change {
+    /// Place of the signal.
+    pub place: usize,
+    /// None in the first sample.
+    pub from: Option<u128>,
+    pub to: u128,
+}
+
 /// What changed in a sample.
 pub(super) struct Changes {
     /// Signals by place, with their bits as `0` and `1`, the highest first.
@@ -80,6 +89,16 @@ impl Watch {
         &self.widths
     }
 
+    /// The signals, by place.
+    pub fn signals(&self) -> impl Iterator<Item = SignalId> {
+        self.signals.iter().map(|(signal, _)| *signal)
+    }
+
+    /// Samples taken.
+    pub fn cycles(&self) -> u64 {
+        self.cycles
+    }
+
     /// The time at which the next sample begins, in ns.
     pub fn now(&self) -> u64 {
         self.cycles * CYCLE
@@ -91,15 +110,22 @@ impl Watch {
         self.labels.iter().map(|(_, names)| longest(names)).collect()
     }
 
-    /// Takes a sample: what changed since the last.
-    pub fn changes(&mut self, sim: &mut Simulator) -> Changes {
+    /// Takes a sample: the signals with another value than in the last.
+    pub fn changed(&mut self, sim: &mut Simulator) -> Vec<Change> {
         self.cycles += 1;
+        let signals = self.signals.iter_mut().enumerate();
+        let change = |(place, (signal, last)): (usize, &mut (SignalId, Option<u128>))| {
+            let to = sim.value(*signal);
+            let from = last.replace(to);
+            (from != Some(to)).then_some(Change { place, from, to })
+        };
+        signals.filter_map(change).collect()
+    }
+
+    /// Takes a sample: what changed since the last, as text.
+    pub fn changes(&mut self, sim: &mut Simulator) -> Changes {
         let mut changes = Changes { bits: Vec::new(), texts: Vec::new() };
-        for (place, (signal, last)) in self.signals.iter_mut().enumerate() {
-            let value = sim.value(*signal);
-            if last.replace(value) == Some(value) {
-                continue;
-            }
+        for Change { place, to: value, .. } in self.changed(sim) {
             changes.bits.push((place, format!("{value:0width$b}", width = self.widths[place] as usize)));
             for (text, (of, names)) in self.labels.iter().enumerate() {
                 if *of == place {
