@@ -73,8 +73,8 @@ fn stalls_are_those_asked_for() {
     }
     println!("cycles without stalls, with mixed and with late ones: {cycles:?}");
     assert!(cycles[0] < cycles[1] && cycles[0] < cycles[2] && cycles[1] != cycles[2], "{cycles:?}");
-    // Left out: those of the suite, which is late for hazards and mixed for corners.
-    for (suite, kind) in [("hazards", "late"), ("corners", "mixed")] {
+    // Left out: those of the suite.
+    for (suite, kind) in [("hazards", "late"), ("random", "mixed"), ("sphere", "none")] {
         vectors(folder, "own", &[&["--suite", suite, "--unit", "depth"][..], &SMALL].concat());
         assert_eq!(manifest(folder, &format!("own/{suite}_depth"))["stalls"]["kind"], kind);
     }
