@@ -5,8 +5,8 @@ use edgewalk_machine::{Plan, PortVertex};
 use edgewalk_model::edge::Edge;
 use edgewalk_model::setup::Setup;
 use edgewalk_model::span::Span;
-use edgewalk_model::tokens::Prim;
-use edgewalk_model::{Culled, Events, for_channels, longest_setup};
+use edgewalk_model::tokens::{MAX_CHANNELS, Prim};
+use edgewalk_model::{Culled, Events, longest_setup};
 use serde::{Serialize, Serializer};
 use serde_json::{Map, json};
 use std::collections::BTreeMap;
@@ -40,7 +40,22 @@ impl SetupReport {
     /// Of all triangles, in SETUP one after the other.
     pub fn new(machine: &Plan, triangles: &[[PortVertex; 3]]) -> Self {
         let mut report = SetupReport::empty(machine);
-        for_channels!(machine, C => report.all::<C>(machine, triangles));
+        // Units of most channels serve any machine.
+        let mut setup = Setup::<MAX_CHANNELS>::new(machine);
+        for triangle in triangles {
+            let mut met = Events::default();
+            let pixels = setup.run(triangle, &mut met).map(|prim| pixels(machine, &prim));
+            let clocks = setup.clocks().all();
+            setup.step(None, true, false, &mut met); // EDGE takes it
+            let fate = match pixels {
+                None if met.setup.culled_lines > 0 => 0,
+                None if met.setup.culled_columns > 0 => 1,
+                None => 2,
+                Some(0) => 3,
+                Some(_) => 4,
+            };
+            report.add(clocks, fate, pixels);
+        }
         report
     }
 
@@ -79,24 +94,6 @@ impl SetupReport {
         }
         let reached = SIZES.iter().filter(|(_, least)| pixels.unwrap_or(0) >= *least).count();
         self.sizes[reached - 1] += 1; // all have 0 at least
-    }
-
-    fn all<const C: usize>(&mut self, machine: &Plan, triangles: &[[PortVertex; 3]]) {
-        let mut setup = Setup::<C>::new(machine);
-        for triangle in triangles {
-            let mut met = Events::default();
-            let pixels = setup.run(triangle, &mut met).map(|prim| pixels(machine, &prim));
-            let clocks = setup.clocks().all();
-            setup.step(None, true, false, &mut met); // EDGE takes it
-            let fate = match pixels {
-                None if met.setup.culled_lines > 0 => 0,
-                None if met.setup.culled_columns > 0 => 1,
-                None => 2,
-                Some(0) => 3,
-                Some(_) => 4,
-            };
-            self.add(clocks, fate, pixels);
-        }
     }
 
     /// Of the triangles that are not culled: mean, what 95 % do not exceed, most; 0 if there is none.
@@ -152,7 +149,7 @@ impl Serialize for SetupReport {
 }
 
 /// Pixels on the screen of all spans of a triangle.
-fn pixels<const C: usize>(machine: &Plan, prim: &Prim<C>) -> u64 {
+fn pixels(machine: &Plan, prim: &Prim<MAX_CHANNELS>) -> u64 {
     let (mut edge, mut spans, events) = (Edge::new(machine), Span::new(machine), &mut Events::default());
     edge.step(Some(prim), false, true, events);
     let mut pixels = 0;

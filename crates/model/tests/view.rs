@@ -20,7 +20,7 @@ fn watch(plan: &Plan, triangles: &[Triangle], stalls: Stalls, mut see: impl FnMu
             rig.model.view(plan, &rig.inputs(offered, true), &mut view);
             see(&view);
             let cycle = rig.cycle(offered, true);
-            if cycle.triangle {
+            if cycle.outputs.triangle {
                 waiting = &waiting[1..];
             } else if cycle.outputs.idle && waiting.is_empty() {
                 break;

@@ -10,9 +10,9 @@ impl<const C: usize> Model<C> {
     pub fn view(&self, plan: &Plan, inputs: &Inputs, view: &mut View) {
         view.begin(inputs.shadow.light_pass);
         let Model { setup, edge, span, pixel, depth, .. } = self;
-        let mut offers = self.no_offers();
+        let mut offers = self.room();
         let wires = self.wires(inputs, &mut offers);
-        let made = &offers.made;
+        let made = offers.made();
         let fresh_queued = span.fresh_queued();
         let line = edge.line();
         setup.view(inputs.tri, edge.prim_ready(fresh_queued), view);
