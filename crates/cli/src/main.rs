@@ -40,8 +40,8 @@ mod verdict;
 use anyhow::{Result, anyhow};
 use clap::{CommandFactory as _, Parser, Subcommand};
 use commands::{
-    bench, compare, completions, config, demo, emit, energy, explain, gallery, judge, man, mutants, raster, render,
-    replay, size, sweep, synth, trace, vectors, verify,
+    bench, compare, completions, config, demo, emit, energy, explain, gallery, judge, man, mutants, raster,
+    render, replay, size, sweep, synth, trace, vectors, verify,
 };
 use machine_args::MachineArgs;
 use std::io::Write as _;
