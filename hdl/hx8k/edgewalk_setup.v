@@ -933,7 +933,7 @@ module edgewalk_setup (
   end
 
   always @(posedge clk) begin
-    if (result_given == 4'd8) begin
+    if ((result_given == 4'd8) && (number_given == 3'd0)) begin
       prim_z_start <= lane0_whole[45:8];
       prim_r_start <= lane1_whole[29:8];
       prim_g_start <= lane2_whole[29:8];
@@ -942,7 +942,7 @@ module edgewalk_setup (
   end
 
   always @(posedge clk) begin
-    if (result_given == 4'd9) begin
+    if ((result_given == 4'd9) && (number_given == 3'd0)) begin
       prim_z_d0 <= lane0_whole[38:1];
       prim_r_d0 <= lane1_whole[22:1];
       prim_g_d0 <= lane2_whole[22:1];
@@ -951,7 +951,7 @@ module edgewalk_setup (
   end
 
   always @(posedge clk) begin
-    if (result_given == 4'd10) begin
+    if ((result_given == 4'd10) && (number_given == 3'd0)) begin
       prim_z_d1 <= lane0_whole[38:1];
       prim_r_d1 <= lane1_whole[22:1];
       prim_g_d1 <= lane2_whole[22:1];
@@ -960,7 +960,7 @@ module edgewalk_setup (
   end
 
   always @(posedge clk) begin
-    if (result_given == 4'd11) begin
+    if ((result_given == 4'd11) && (number_given == 3'd0)) begin
       prim_z_g <= lane0_whole[38:1];
       prim_r_g <= lane1_whole[22:1];
       prim_g_g <= lane2_whole[22:1];
@@ -973,8 +973,8 @@ module edgewalk_setup (
 
   // Not needed, on purpose.
   wire unused = &{
-    1'b0, of_channels, step_number, number_given, lane0_rest[45:30], lane1_rest[45:30],
-    lane2_rest[45:30], lane3_whole[0]
+    1'b0, of_channels, step_number, lane0_rest[45:30], lane1_rest[45:30], lane2_rest[45:30],
+    lane3_whole[0]
   };
 
 endmodule

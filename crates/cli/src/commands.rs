@@ -17,6 +17,7 @@ pub mod verify;
 pub mod trace;
 pub mod replay;
 pub mod synth;
+pub mod energy;
 pub mod bench;
 pub mod config;
 pub mod completions;

@@ -40,8 +40,8 @@ mod verdict;
 use anyhow::{Result, anyhow};
 use clap::{CommandFactory as _, Parser, Subcommand};
 use commands::{
-    bench, compare, completions, config, demo, emit, explain, gallery, judge, man, mutants, raster, render,
-    replay, size, sweep, synth, trace, vectors, verify,
+    bench, compare, completions, config, demo, emit, energy, explain, gallery, judge, man, mutants, raster,
+    render, replay, size, sweep, synth, trace, vectors, verify,
 };
 use machine_args::MachineArgs;
 use std::io::Write as _;
@@ -95,6 +95,7 @@ enum Command {
     Trace(trace::Args),
     Replay(replay::Args),
     Synth(synth::Args),
+    Energy(energy::Args),
     Bench(bench::Args),
     Config(config::Args),
     Completions(completions::Args),
@@ -150,6 +151,7 @@ fn run(cli: &Cli, talk: Talk) -> Result<Verdict> {
         Command::Trace(a) => trace::run(a, &cli.machine, talk),
         Command::Replay(a) => replay::run(a, &cli.machine, talk),
         Command::Synth(a) => synth::run(a, &cli.machine, talk),
+        Command::Energy(a) => energy::run(a, &cli.machine, talk),
         Command::Bench(a) => bench::run(a, &cli.machine, talk),
         Command::Config(a) => config::run(a, &cli.machine, talk),
         Command::Completions(a) => completions::run(a, Cli::command(), talk),

@@ -108,7 +108,7 @@ fn a_test_of_two_lines_runs() {
     let lines =
         lines.replace("out/own/hazards_pixel", &folder.path().join("v/hazards_pixel").display().to_string());
     fs::write(folder.path().join("test_mine.py"), lines).expect("written");
-    let script = "import sys; sys.path.insert(0, '.')\n\
+    let script = "import os, sys; sys.path.insert(0, os.getcwd())\n\
         from edgewalk_vectors.run import runner\n\
         r = runner('icarus')\n\
         r.build(sources=['v/hazards_pixel/hdl/edgewalk_pixel.v'], hdl_toplevel='edgewalk_pixel', timescale=('1ns', '1ps'))\n\

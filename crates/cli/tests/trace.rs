@@ -205,3 +205,121 @@ fn transitions_are_those_of_the_waveform() {
     }
     println!("{compared} bits compared");
 }
+
+/// For each cycle of a waveform the values of these signals of the machine; in a VCD a cycle lasts 10 ns.
+fn cycles(text: &str, names: &[&str]) -> BTreeMap<u64, Vec<String>> {
+    let (header, changes) = text.split_once("$enddefinitions $end").expect("a header");
+    let id = |name: &&str| {
+        // The machine's own port is the first of that name.
+        let line = header.lines().find(|line| line.contains(&format!(" {name} $end")));
+        line.and_then(|line| line.split_whitespace().nth(3)).expect("declared").to_owned()
+    };
+    let ids: Vec<String> = names.iter().map(id).collect();
+    let (mut now, mut values, mut found) = (None, vec![String::new(); names.len()], BTreeMap::new());
+    for line in changes.lines() {
+        if let Some(time) = line.strip_prefix('#') {
+            if let Some(before) = now.filter(|before| before % 10 == 0) {
+                found.insert(before / 10, values.clone());
+            }
+            now = time.parse::<u64>().ok();
+        } else if let Some((value, id)) = line.strip_prefix('b').and_then(|rest| rest.split_once(' ')) {
+            ids.iter()
+                .position(|known| known == id)
+                .into_iter()
+                .for_each(|place| values[place] = value.to_owned());
+        } else if let Some((value, id)) = line.split_at_checked(1) {
+            ids.iter()
+                .position(|known| known == id)
+                .into_iter()
+                .for_each(|place| values[place] = value.to_owned());
+        }
+    }
+    found
+}
+
+const WATCHED: [&str; 5] = ["tri_valid", "tri_ready", "wr_valid", "wr_addr", "wr_z"];
+
+/// The waveform of a run of two triangles, and what is said of it.
+fn part(arguments: &[&str]) -> (Option<i32>, String, String) {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut command = Command::new(env!("CARGO_BIN_EXE_edgewalk"));
+    let triangles = "size 24 20\nT 2 2 0.2 1 0 0 0  12 3 0.5 0 1 0 0  4 15 0.8 0 0 1 0\n\
+        T 3 3 0.1 1 0 0 0  14 4 0.4 0 1 0 0  5 16 0.7 0 0 1 0\n";
+    std::fs::write(folder.path().join("in.tri"), triangles).expect("written");
+    command.args(["trace", "in.tri", "--out", "t.vcd"]).args(arguments);
+    for setting in ["screen.width=24", "screen.height=20", "screen.guard_bits=6"] {
+        command.args(["--set", setting]);
+    }
+    let output = command.current_dir(&folder).output().expect("the program runs");
+    let said = [&output.stdout[..], &output.stderr].map(String::from_utf8_lossy).concat();
+    (output.status.code(), said, std::fs::read_to_string(folder.path().join("t.vcd")).unwrap_or_default())
+}
+
+#[test]
+fn a_part_of_a_waveform_is_that_of_the_whole() {
+    let (_, _, whole) = part(&[]);
+    let whole = cycles(&whole, &WATCHED);
+    let of = |name: &str| WATCHED.iter().position(|watched| *watched == name).expect("watched");
+    let is = |values: &[String], name: &str| values[of(name)] == "1";
+    let check = |arguments: &[&str]| {
+        let (code, said, text) = part(arguments);
+        assert_eq!(code, Some(0), "{said}");
+        let part = cycles(&text, &WATCHED);
+        assert!(said.starts_with(&format!("{} cycles -> ", part.len())), "{} {said}", part.len());
+        part.iter()
+            .for_each(|(cycle, values)| assert_eq!(values, &whole[cycle], "{arguments:?}: cycle {cycle}"));
+        part
+    };
+    let part = check(&["--from", "100", "--to", "149"]);
+    assert_eq!((part.len(), part.keys().next(), part.keys().last()), (50, Some(&100), Some(&149)));
+    let part = check(&["--from", "100", "--cycles", "20"]);
+    assert_eq!((part.len(), part.keys().next()), (20, Some(&100)));
+
+    let writes = |cycles: &BTreeMap<u64, Vec<String>>, address: &str| {
+        let all =
+            cycles.iter().filter(|(_, values)| is(values, "wr_valid") && values[of("wr_addr")] == address);
+        all.map(|(cycle, _)| *cycle).collect::<Vec<u64>>()
+    };
+    let written = whole.values().find(|values| is(values, "wr_valid")).expect("a write");
+    let address = written[of("wr_addr")].clone();
+    let number = u32::from_str_radix(&address, 2).expect("a number");
+    let (x, y) = ((number % 32).to_string(), (number / 32).to_string());
+    let part = check(&["--pixel", &x, &y]);
+    let at = writes(&whole, &address);
+    assert_eq!(writes(&part, &address), at);
+    assert_eq!(
+        (part.keys().next(), part.keys().last()),
+        (Some(&(at[0] - 40)), Some(&(at[at.len() - 1] + 1)))
+    );
+
+    let enters: Vec<u64> = whole
+        .iter()
+        .filter(|(_, v)| is(v, "tri_valid") && is(v, "tri_ready"))
+        .map(|(cycle, _)| *cycle)
+        .collect();
+    assert_eq!(enters.len(), 2);
+    let part = check(&["--triangle", "1"]);
+    assert_eq!(part.keys().next(), Some(&enters[1]));
+    let last = whole.iter().rfind(|(_, values)| is(values, "wr_valid")).map(|(cycle, _)| cycle + 1);
+    assert_eq!(part.keys().last().copied(), last);
+}
+
+#[test]
+fn a_part_that_is_not_there_is_refused() {
+    for (arguments, said) in [
+        (
+            &["--from", "9", "--to", "8"][..],
+            "--from 9 --to 8: the last cycle is before the first; permitted: --to 9 or more",
+        ),
+        (&["--from", "99999999"], "--from 99999999: the run ends after "),
+        (&["--pixel", "24", "0"], "--pixel 24 0: is off the screen; permitted: 0 0 to 23 19"),
+        (&["--pixel", "0", "0"], "--pixel 0 0: none of the 2 triangles writes it"),
+        (&["--triangle", "2"], "--triangle 2: permitted: 0 to 1"),
+        (&["--triangle", "0", "--from", "3"], "cannot be used with"),
+    ] {
+        let (code, text, file) = part(arguments);
+        assert_eq!(code, Some(2), "{arguments:?}: {text}");
+        assert!(text.contains(said), "{arguments:?}: {text}");
+        assert!(file.is_empty(), "{arguments:?}");
+    }
+}

@@ -1,15 +1,15 @@
 //! The accumulators of the channels before their outputs are rounded: how far they are from the exact plane.
 
 use edgewalk_machine::{Channel, EdgeKind, Fill, Plan, PortVertex};
+use edgewalk_model::Events;
 use edgewalk_model::edge::Edge;
 use edgewalk_model::setup::Setup;
 use edgewalk_model::span::Span;
-use edgewalk_model::tokens::{Prim, Words, add, word_masks};
-use edgewalk_model::{Events, for_channels};
+use edgewalk_model::tokens::{MAX_CHANNELS, Prim, Words, add, word_masks};
 use edgewalk_numerics::Steps;
 
-/// What SETUP makes of a triangle; `None` if it is culled.
-pub fn prim<const C: usize>(machine: &Plan, triangle: &[PortVertex; 3]) -> Option<Prim<C>> {
+/// What SETUP makes of a triangle; `None` if it is culled. A token of most channels serves any machine.
+pub fn prim(machine: &Plan, triangle: &[PortVertex; 3]) -> Option<Prim<MAX_CHANNELS>> {
     Setup::new(machine).run(triangle, &mut Events::default())
 }
 
@@ -27,22 +27,22 @@ pub fn depth_error_over_bound(
     let mut map = vec![0.0; ids.len()];
     for (triangle, id) in triangles.iter().zip(0..) {
         let plane = Plane { machine, triangle };
-        for_channels!(machine, C => each_fragment::<C>(machine, triangle, |x, y, steps, words| {
+        each_fragment(machine, triangle, |x, y, steps, words| {
             let at = y as usize * machine.width as usize + x as usize;
             if ids[at] == id {
                 let bound = machine.channels()[0].error_budget(steps).steps.to_f64();
                 map[at] = plane.error(plane.weights(i64::from(x), y), words[0], 0) / bound;
             }
-        }));
+        });
     }
     Some(map)
 }
 
 /// Calls `seen` with every visible pixel of a triangle, the additions behind it and the accumulators there.
-fn each_fragment<const C: usize>(
+fn each_fragment(
     machine: &Plan,
     triangle: &[PortVertex; 3],
-    mut seen: impl FnMut(u32, u32, Steps, &Words<C>),
+    mut seen: impl FnMut(u32, u32, Steps, &Words<MAX_CHANNELS>),
 ) {
     let Some(prim) = prim(machine, triangle) else { return };
     let masks = word_masks(machine);

@@ -3,10 +3,10 @@
 use crate::accumulators::{Plane, half, lsb, prim, signed};
 use edgewalk_host::extra::Label;
 use edgewalk_machine::{Plan, PortVertex};
+use edgewalk_model::Events;
 use edgewalk_model::edge::Edge;
 use edgewalk_model::span::Span;
-use edgewalk_model::tokens::{Words, add, output, word_masks};
-use edgewalk_model::{Events, for_channels};
+use edgewalk_model::tokens::{MAX_CHANNELS, Words, add, output, word_masks};
 use edgewalk_numerics::Steps;
 use serde::Serialize;
 
@@ -42,11 +42,7 @@ pub struct Addition {
 
 /// The way to pixel (x, y); `None` if the triangle does not draw it. The machine has exact fill and exact edges.
 pub fn walk(machine: &Plan, triangle: &[PortVertex; 3], x: u32, y: u32) -> Option<Walk> {
-    for_channels!(machine, C => walk_words::<C>(machine, triangle, x, y))
-}
-
-fn walk_words<const C: usize>(machine: &Plan, triangle: &[PortVertex; 3], x: u32, y: u32) -> Option<Walk> {
-    let prim = prim::<C>(machine, triangle)?;
+    let prim = prim(machine, triangle)?;
     let plane = Plane { machine, triangle };
     let masks = word_masks(machine);
     let events = &mut Events::default();
@@ -54,7 +50,7 @@ fn walk_words<const C: usize>(machine: &Plan, triangle: &[PortVertex; 3], x: u32
     edge.step(Some(&prim), false, true, events);
     let mut additions = Vec::new();
     let mut lines = 0;
-    let mut before = [0; C];
+    let mut before = [0; MAX_CHANNELS];
     while let Some(line) = edge.line() {
         // The span begins right of the major edge, or left of it.
         let first = i64::from(line.major) - i64::from(line.major_right);
@@ -90,11 +86,11 @@ fn walk_words<const C: usize>(machine: &Plan, triangle: &[PortVertex; 3], x: u32
 }
 
 impl Plane<'_> {
-    fn addition<const C: usize>(
+    fn addition(
         &self,
         step: &'static str,
         (x, y): (i64, u32),
-        (before, after): (&Words<C>, &Words<C>),
+        (before, after): (&Words<MAX_CHANNELS>, &Words<MAX_CHANNELS>),
         (lines, columns): (u32, u32),
     ) -> Addition {
         let weights = self.weights(x, y);

@@ -7,7 +7,7 @@
 //! let text = "size 16 12\nT 3 1.5 .25 1 0 0 0  13 4.75 .5 0 1 0 0  5.5 10 .5 0 0 1 0\n";
 //! let frame = triangle_file::parse("stdin", text.as_bytes())?;
 //! let machine = Machine { width: 16, height: 12, ..Machine::default() }.plan()?;
-//! let input = Input { machine: &machine, frame: &frame, scene: None, order: None, outlined: false };
+//! let input = Input { machine: &machine, frame: &frame, scene: None, order: None, outlined: None };
 //! let told = explain(&input, (6, 5))?.text(8);
 //! assert!(told.contains("additions to here: 6"));
 //! # Ok::<(), Box<dyn std::error::Error>>(())

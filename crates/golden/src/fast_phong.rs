@@ -13,9 +13,9 @@
 mod normal_plane;
 mod quadratic;
 mod taylor;
-mod six_point;
+pub(crate) mod six_point;
 mod differences;
-mod table;
+pub(crate) mod table;
 mod triangle;
 mod picture;
 
@@ -24,7 +24,6 @@ pub use normal_plane::NormalPlane;
 pub use picture::{FastShaded, Settings, shade};
 pub use quadratic::Quadratic;
 pub use six_point::six_point;
-pub(crate) use six_point::{nodes, six_point_at};
 pub use table::PowerTable;
 pub use taylor::taylor;
 pub use triangle::{Directional, FastPhong, Fit, quadratics};

@@ -2,7 +2,8 @@
 //!
 //! All is a mean over the triangle, by what its vertices weigh at the pixel; nothing is stepped.
 
-use crate::fast_phong::{PowerTable, nodes, six_point_at};
+use crate::fast_phong::six_point::{nodes, six_point_at};
+use crate::fast_phong::table::PowerTable;
 use crate::fragment::{Fragment, Weight};
 use edgewalk_scene::{Image, Light, PixelMethod, PixelShading, PixelTriangle};
 use glam::{DVec2, DVec3};

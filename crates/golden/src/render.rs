@@ -8,10 +8,11 @@
 //! The picture and the truth beside it are blended alike, each with its own colours.
 
 use crate::depth::compare;
+use crate::drawing::{draw, mix};
 use crate::fill::Fill;
 use crate::fragment::Fragment;
 use crate::incremental::Incremental;
-use crate::picture::{Lit, draw, mix};
+use crate::picture::Lit;
 use crate::shading::{Attributes, Shaded, Shading, color, frame, on_surface, packed};
 use crate::shadow::Gated;
 use crate::transparency::{Order, back_to_front};

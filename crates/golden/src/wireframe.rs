@@ -9,9 +9,8 @@
 //! range. Pushed back by the lesser of these, no plane hides the edges that lie in it. What lies behind a surface by less
 //! than that shows through. A polygon whose vertices lie in no plane has the slopes of its mean one (Newell's).
 
-mod line;
-
 use crate::fill::Fill;
+use crate::line;
 use crate::picture::{Lit, Picture};
 use crate::polygon::{self, EdgeTable, Grid};
 use edgewalk_scene::{Frame, Line, Polygon, Primitive, ShadeMode, Triangle, Vertex};
@@ -38,24 +37,24 @@ pub fn wireframe(frame: &Frame, fill: Fill, hidden: HiddenLines) -> Picture {
         HiddenLines::Drawn => vec![f64::INFINITY; picture.z.len()],
         HiddenLines::Removed => pushed_back(frame, fill),
     };
-    let screen = (frame.width, frame.height);
     for (primitive, id) in frame.primitives().into_iter().zip(0..) {
         let contours = primitive.contours();
         let Some(first) = contours.first().and_then(|contour| contour.first()) else { continue };
         for ends in contours.iter().copied().flat_map(edges) {
-            line::pixels(ends, fill.grid(), screen, |x, y, [near, far]| {
-                let at = y as usize * frame.width as usize + x as usize;
+            let colored = ends.map(|end| match frame.mode {
+                ShadeMode::Gouraud => *end,
+                ShadeMode::Flat => end.colored_as(first),
+            });
+            let line = line::Line::new(&colored, frame.mode, fill.grid());
+            line.fragments_of_lines(frame.width, 0..frame.height, |fragment| {
+                let at = fragment.y as usize * frame.width as usize + fragment.x as usize;
                 picture.coverage[at] += 1;
-                let between = |value: fn(&Vertex) -> f64| value(ends[0]) * near + value(ends[1]) * far;
-                let z = between(|v| v.z);
+                let z = fragment.z();
                 if z > surfaces[at] || (picture.writes[at] > 0 && z >= picture.z[at]) {
                     return;
                 }
                 picture.z[at] = z;
-                picture.rgb[at] = match frame.mode {
-                    ShadeMode::Gouraud => [between(|v| v.r), between(|v| v.g), between(|v| v.b)],
-                    ShadeMode::Flat => [first.r, first.g, first.b],
-                };
+                picture.rgb[at] = fragment.rgb();
                 picture.writes[at] += 1;
                 picture.id[at] = id;
                 picture.lit[at] = Lit::Lit;

@@ -27,7 +27,8 @@
 //! let count = m.reg("count", 8).reset(0);
 //! count.when(step, count.q() + 1);
 //! m.output("q", count.q());
-//! let mut simulator = edgewalk_jit::Simulator::new(&m.finish()?)?;
+//! let counter = m.finish()?;
+//! let mut simulator = edgewalk_jit::Simulator::new(&counter)?;
 //! simulator.set_input("step", 1)?;
 //! (0..5).for_each(|_| simulator.tick());
 //! assert_eq!(simulator.get("q")?, 5);

@@ -4,9 +4,9 @@ use crate::occupancy::ratio;
 use edgewalk_machine::{Plan, PortVertex, Role};
 use edgewalk_model::setup::Setup;
 use edgewalk_model::span::Span;
-use edgewalk_model::tokens::Prim;
+use edgewalk_model::tokens::{MAX_CHANNELS, Prim};
 use edgewalk_model::walker::Walker;
-use edgewalk_model::{Culled, Events, for_channels, longest_setup};
+use edgewalk_model::{Culled, Events, longest_setup};
 use serde::{Serialize, Serializer};
 use serde_json::{Map, json};
 use std::collections::BTreeMap;
@@ -40,7 +40,27 @@ impl SetupReport {
     /// Of all triangles, in SETUP one after the other.
     pub fn new(machine: &Plan, triangles: &[[PortVertex; 3]]) -> Self {
         let mut report = SetupReport::empty(machine);
-        for_channels!(machine, C => report.all::<C>(machine, triangles));
+        // Units of most channels serve any machine.
+        let (mut setup, mut walker) = (Setup::<MAX_CHANNELS>::new(machine), Walker::new(machine));
+        let mut clocks = 0;
+        for triangle in triangles {
+            let mut met = Events::default();
+            let pixels = setup.run(triangle, &mut met).map(|prim| pixels(machine, &mut walker, &prim));
+            clocks += setup.clocks().all();
+            setup.step(None, true, false, &mut met); // EDGE or POLY takes it
+            if !Role::of(triangle).ends() {
+                continue;
+            }
+            let fate = match pixels {
+                None if met.setup.culled_lines > 0 => 0,
+                None if met.setup.culled_columns > 0 => 1,
+                None => 2,
+                Some(0) => 3,
+                Some(_) => 4,
+            };
+            report.add(clocks, fate, pixels);
+            clocks = 0;
+        }
         report
     }
 
@@ -79,28 +99,6 @@ impl SetupReport {
         }
         let reached = SIZES.iter().filter(|(_, least)| pixels.unwrap_or(0) >= *least).count();
         self.sizes[reached - 1] += 1; // all have 0 at least
-    }
-
-    fn all<const C: usize>(&mut self, machine: &Plan, triangles: &[[PortVertex; 3]]) {
-        let (mut setup, mut walker, mut clocks) = (Setup::<C>::new(machine), Walker::new(machine), 0);
-        for triangle in triangles {
-            let mut met = Events::default();
-            let pixels = setup.run(triangle, &mut met).map(|prim| pixels(machine, &mut walker, &prim));
-            clocks += setup.clocks().all();
-            setup.step(None, true, false, &mut met); // EDGE or POLY takes it
-            if !Role::of(triangle).ends() {
-                continue;
-            }
-            let fate = match pixels {
-                None if met.setup.culled_lines > 0 => 0,
-                None if met.setup.culled_columns > 0 => 1,
-                None => 2,
-                Some(0) => 3,
-                Some(_) => 4,
-            };
-            self.add(clocks, fate, pixels);
-            clocks = 0;
-        }
     }
 
     /// Of the triangles that are not culled: mean, what 95 % do not exceed, most; 0 if there is none.
@@ -156,7 +154,7 @@ impl Serialize for SetupReport {
 }
 
 /// Pixels on the screen of all spans of a triangle, or of a polygon that ends here.
-fn pixels<const C: usize>(machine: &Plan, walker: &mut Walker<C>, prim: &Prim<C>) -> u64 {
+fn pixels(machine: &Plan, walker: &mut Walker<MAX_CHANNELS>, prim: &Prim<MAX_CHANNELS>) -> u64 {
     let (mut spans, events) = (Span::new(machine), &mut Events::default());
     loop {
         let taken = walker.prim_ready(Some(prim), false);

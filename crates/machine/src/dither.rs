@@ -1,10 +1,8 @@
 //! DITHER: its keys, and the bits of a colour that it leaves.
 
-use crate::channel::Precision;
 use crate::key::Domain::OneOf;
 use crate::key::{Domain, Key, number, word};
 use crate::machine::Machine;
-use crate::plan::Plan;
 
 /// Whether DITHER drops fragments by a pattern, as many as k_t says.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -48,22 +46,6 @@ impl Dither {
     #[must_use]
     pub fn drops(&self) -> bool {
         self.screen_door == ScreenDoor::Yes
-    }
-}
-
-impl Plan {
-    /// Colours as the frame memory has them: n bits with DITHER, else b.
-    #[must_use]
-    pub fn stored_color(&self) -> Precision {
-        let bits = if self.dither.rounds() { self.dither.bits } else { self.color.bits };
-        Precision { bits, ..self.color }
-    }
-
-    /// The step from one stored colour to the next, in LSB of the colours that PIXEL gives: (2^b - 1)/(2^n - 1), and 0 where DITHER
-    /// rounds none.
-    #[must_use]
-    pub fn dither_step(&self) -> f64 {
-        if self.dither.rounds() { self.color.max() as f64 / self.stored_color().max() as f64 } else { 0.0 }
     }
 }
 

@@ -1,6 +1,6 @@
 //! The checked machine: what units, drawing and tools take.
 
-use crate::channel::Channel;
+use crate::channel::{Channel, Precision};
 use crate::machine::{Machine, SetupKind};
 use crate::shadow::LIGHT_SPACE;
 use crate::stamp::PortStamp;
@@ -57,6 +57,20 @@ impl Plan {
     pub fn map_word_bits(&self) -> u32 {
         let share = if self.shadow.transmits() { self.color.bits } else { 0 };
         self.shadow.depth_bits + share
+    }
+
+    /// Colours as the frame memory has them: n bits with DITHER, else b.
+    #[must_use]
+    pub fn stored_color(&self) -> Precision {
+        let bits = if self.dither.rounds() { self.dither.bits } else { self.color.bits };
+        Precision { bits, ..self.color }
+    }
+
+    /// The step from one stored colour to the next, in LSB of the colours that PIXEL gives: (2^b - 1)/(2^n - 1), and 0 where DITHER
+    /// rounds none.
+    #[must_use]
+    pub fn dither_step(&self) -> f64 {
+        if self.dither.rounds() { self.color.max() as f64 / self.stored_color().max() as f64 } else { 0.0 }
     }
 
     /// The terms that TERM walks and PIXEL steps, in the order of their words.

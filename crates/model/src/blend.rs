@@ -204,7 +204,7 @@ impl<const C: usize> Blend<C> {
 
     /// k of a fragment, 0 to 2^kt_bits.
     fn k(&self, pass: &Fragment<C>) -> u32 {
-        self.kt.map_or(pass.kt, |place| pass.values[place]).min(1 << self.kt_bits)
+        self.kt.map_or(pass.kt.into(), |place| pass.values[place]).min(1 << self.kt_bits)
     }
 
     fn side(&self, pass: &Fragment<C>, add: bool) -> Side<C> {

@@ -18,7 +18,7 @@ use edgewalk_machine::Plan;
 pub struct ColorMemory<const C: usize> {
     /// b.
     bits: u32,
-    served: Served<u64>,
+    served: Served<u64, false>,
     rgb: Vec<u64>,
     own: Vec<[u32; MAX_CHANNELS - FEW]>,
 }

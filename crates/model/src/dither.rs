@@ -106,7 +106,8 @@ impl Dither {
     #[must_use]
     pub fn drops<const C: usize>(&self, frag: &Fragment<C>) -> bool {
         // What is beyond 1 counts as 1.
-        self.kt_bits.is_some_and(|bits| self.cut.pattern(frag.addr) << bits < 16 * frag.kt.min(1 << bits))
+        self.kt_bits
+            .is_some_and(|bits| self.cut.pattern(frag.addr) << bits < 16 * u32::from(frag.kt).min(1 << bits))
     }
 
     /// The fragment offered on.

@@ -37,6 +37,8 @@ pub struct Inputs<'a> {
 pub struct Outputs<const C: usize> {
     /// A triangle is taken, if there is one, or a word of it.
     pub tri_ready: bool,
+    /// Not hardware: a triangle is taken; one that comes word by word with its last word.
+    pub triangle: bool,
     /// Address of a depth read.
     pub rd: Option<u32>,
     /// The depth is taken, if it is there.
@@ -72,10 +74,12 @@ impl Inputs<'_> {
 pub struct Cycle<const C: usize> {
     /// The ports of the machine.
     pub outputs: Outputs<C>,
-    /// A triangle was taken; one that comes word by word with its last word.
-    pub triangle: bool,
     /// The address whose read fired; [`last_read`](crate::Model::last_read) is its fragment.
     pub read: Option<u32>,
+    /// The depth that the memory offered was taken.
+    pub data_taken: bool,
+    /// The colour that the memory offered was taken, with BLEND.
+    pub color_taken: bool,
     /// The write of `outputs` fired.
     pub written: bool,
     /// The colour write of `outputs` fired.

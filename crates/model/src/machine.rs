@@ -29,7 +29,7 @@ use crate::term::{Term, Walked};
 use crate::tokens::{FEW, Fragment, Line};
 use crate::walker::Walker;
 use crate::wires::{Offers, Wires};
-use crate::word_memory::{Ask, MEMORIES, WordIn};
+use crate::word_memory::{Ask, WordIn};
 use edgewalk_machine::{Activity, Plan};
 
 /// State of the whole machine, `C` words a token; [`for_channels`](crate::for_channels!) finds the number that serves a
@@ -78,7 +78,7 @@ impl<const C: usize> Model<C> {
             counters: Counters::default(),
             events: Events::default(),
         };
-        model.offers = model.no_offers();
+        model.offers = model.room();
         model
     }
 
@@ -109,15 +109,15 @@ impl<const C: usize> Model<C> {
     }
 
     /// Room for what units offer.
-    fn no_offers(&self) -> Offers<C> {
-        Offers { made: vec![Made::default(); self.pipe.len()], asks: vec![Ask::default(); MEMORIES] }
+    fn room(&self) -> Offers<C> {
+        Offers::new(self.pipe.len())
     }
 
     /// What the cycle before asked of the memories that the host alone writes, in the order of [`Plan::word_memories`].
     #[inline(always)]
     #[must_use]
     pub fn asks(&self) -> &[Ask] {
-        &self.offers.asks
+        self.offers.asks()
     }
 
     /// Fragments that passed to colours, if the machine has it.
@@ -184,24 +184,24 @@ impl<const C: usize> Model<C> {
         let activity = if tri_ready { Activity::Idle } else { Activity::Setup };
         self.counters.cycle(activity);
         if C > FEW {
-            self.offers.asks.fill(Ask::default());
+            self.offers.parts().1.fill(Ask::default());
         }
         let light_pass = C > FEW && inputs.shadow.light_pass;
         let prim_ready = self.walker.prim_ready(self.setup.prim(), false);
         self.walker.step(self.setup.prim(), false, false, light_pass, &mut self.events);
-        let takes = self.setup.takes(inputs.tri.is_some());
+        let triangle = self.setup.takes(inputs.tri.is_some());
         self.setup.step(inputs.tri, prim_ready, light_pass, &mut self.events);
-        if takes {
+        if triangle {
             self.taken();
         }
-        Outputs { tri_ready, activity, idle: tri_ready, ..Outputs::default() }
+        Outputs { tri_ready, triangle, activity, idle: tri_ready, ..Outputs::default() }
     }
 
     #[inline(always)]
     fn cycle_of_all(&mut self, inputs: &Inputs, tell: impl FnOnce(&Line<C>)) -> Outputs<C> {
-        let mut offers = if C > FEW { std::mem::take(&mut self.offers) } else { Offers::default() };
+        let mut offers = std::mem::take(&mut self.offers);
         let wires = self.wires(inputs, &mut offers);
-        let outputs = self.outputs(inputs, &wires, &offers.made);
+        let outputs = self.outputs(inputs, &wires, offers.made());
         self.count(inputs, &outputs);
         let light_pass = C > FEW && inputs.shadow.light_pass;
         // From the back on, so that each unit sees the one before as it was.
@@ -210,17 +210,14 @@ impl<const C: usize> Model<C> {
         {
             blend.step(self.depth.pass(), &inputs.blend, &mut self.events);
         }
-        self.step_depth(inputs, &wires, &offers.made);
+        self.step_depth(inputs, &wires, offers.made());
         for place in (0..self.pipe().len()).rev() {
-            self.step_stage(&wires, &offers.made, place, inputs);
+            self.step_stage(&wires, offers.made(), place, inputs);
         }
-        if C > FEW {
-            self.offers = offers;
-        }
+        self.offers = offers;
         self.step_pixel(inputs, &wires, light_pass);
-        let takes = self.setup.takes(inputs.tri.is_some());
         self.step_lines(inputs, wires.span_ready(), light_pass, tell);
-        if takes {
+        if outputs.triangle {
             self.taken();
         }
         outputs
@@ -233,6 +230,7 @@ impl<const C: usize> Model<C> {
         let activity = self.activity(wires, made);
         Outputs {
             tri_ready: self.setup.tri_ready(),
+            triangle: self.setup.takes(inputs.tri.is_some()),
             rd: wires.rd,
             data_ready: self.depth.data_ready(inputs.wr_ready, wires.pass_ready),
             wr: self.depth.write(),
@@ -264,7 +262,7 @@ impl<const C: usize> Model<C> {
             one_more(&mut self.counters.writes);
         }
         self.counters.hold(self.span.queued(), self.depth.inflight());
-        if self.setup.takes(inputs.tri.is_some()) {
+        if outputs.triangle {
             self.events.machine.setup_overlap += u64::from(self.pixel.active());
         }
     }

@@ -190,15 +190,13 @@ impl<const C: usize> Memories<C> {
                 *port = memory.port();
             }
         }
-        let taken = outputs.data_ready && self.depth.data().is_some();
         match &mut self.color {
             Some(color) if C > FEW => {
-                self.depth.step_depth(cycle.read, taken, cycle.write());
+                self.depth.step_depth(cycle.read, cycle.data_taken, cycle.write());
                 let read = outputs.blend.crd.filter(|_| color.crd_ready());
-                let taken = outputs.blend.cdata_ready && color.cdata().is_some();
-                color.step(read, taken, cycle.color_write());
+                color.step(read, cycle.color_taken, cycle.color_write());
             }
-            _ => self.depth.step(cycle.read, taken, cycle.write()),
+            _ => self.depth.step(cycle.read, cycle.data_taken, cycle.write()),
         }
     }
 }

@@ -20,7 +20,7 @@ use edgewalk_machine::Plan;
 /// State of the memory.
 #[derive(Clone, Debug)]
 pub struct Memory<const C: usize> {
-    served: Served<u32>,
+    served: Served<u32, false>,
     /// Words from a line to the next.
     pitch: usize,
     /// Depth and frame memory by address, side by side, as the host's own memory is slow: depth, and the low LOW bits of red,

@@ -17,6 +17,16 @@ pub trait Number {
     fn set(&mut self, bits: u128, width: u32, signed: bool);
 }
 
+impl Number for u16 {
+    fn bits(&self) -> u128 {
+        (*self).into()
+    }
+
+    fn set(&mut self, bits: u128, _: u32, _: bool) {
+        *self = bits as u16;
+    }
+}
+
 impl Number for u32 {
     fn bits(&self) -> u128 {
         (*self).into()

@@ -57,8 +57,8 @@ pub struct Pixel<const C: usize> {
     step_x: i32,
     values: Words<C>,
     gradient: Words<C>,
-    /// k_t of the triangle, where it has one.
-    kt: u32,
+    /// k_t of the triangle, where it has one: at most 13 bits.
+    kt: u16,
     /// Of the span.
     pass: OfPass,
     /// y·2^xb, or y·2^SB.
@@ -308,7 +308,7 @@ impl<const C: usize> Pixel<C> {
         self.source = span.source;
         if span.fresh {
             self.gradient = self.aligned(gradient);
-            self.kt = kt;
+            self.kt = kt as u16; // at most 13 bits
         }
     }
 

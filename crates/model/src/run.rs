@@ -60,13 +60,13 @@ impl<const C: usize> Rig<C> {
     pub fn cycle(&mut self, tri: Option<(&[PortVertex; 3], u32)>, writes_open: bool) -> Cycle<C> {
         let Rig { model, memories } = self;
         let inputs = memories.inputs(tri, writes_open);
-        let triangle = model.setup.takes(tri.is_some());
         let outputs =
             model.cycle_and_tell(&inputs, |line| memories.depth.expect(line.y, [line.major, line.minor]));
         let cycle = Cycle {
             outputs,
-            triangle,
             read: outputs.rd.filter(|_| inputs.rd_ready),
+            data_taken: outputs.data_ready && inputs.data.is_some(),
+            color_taken: outputs.blend.cdata_ready && inputs.blend.cdata.is_some(),
             written: outputs.wr.is_some() && inputs.wr_ready,
             color_written: outputs.blend.cwr.is_some() && inputs.blend.cwr_ready,
         };
@@ -91,7 +91,7 @@ impl<const C: usize> Rig<C> {
             let cycle = self.cycle(next.as_ref().map(|triangle| (triangle, 0)), true);
             watch(now, &self.model, &cycle);
             now = now.wrapping_add(1);
-            if cycle.triangle {
+            if cycle.outputs.triangle {
                 next = triangles.next().transpose()?;
             } else if cycle.outputs.idle && next.is_none() {
                 return Ok(());

@@ -3,7 +3,7 @@
 //! ```text
 //!  read (address, word) ─> L clocks, and as many more as the waits ask ─> data
 //! ```
-//! Timing: data L cycles after the read fired, later if stalled; held until taken. Any number of reads may be on their way.
+//! Timing: data L cycles after the read fired, later if stalled; held until taken. Any number of reads may be on their way, or 16.
 //!
 //! Rules: `docs/machine.md`, section 7. Not modelled: refresh, banks.
 
@@ -14,19 +14,20 @@ use std::collections::VecDeque;
 /// Reads in a queue in place: no more than a read-modify-write has on their way.
 const NEAR: usize = 16;
 
-/// Words of type `W` on their way back.
+/// Words of type `W` on their way back. Without `MANY` no more than [`NEAR`] are at a time: a cycle takes the host less time
+/// then.
 #[derive(Clone, Debug)]
-pub(crate) struct Served<W> {
+pub(crate) struct Served<W, const MANY: bool> {
     latency: u64,
     pacer: Pacer,
     now: u64,
     /// Words read, with the cycle from which on each is offered.
     reads: Fifo<(u64, W), NEAR>,
-    /// Words behind those, while that queue is full.
+    /// With `MANY`: words behind those, while that queue is full.
     more: VecDeque<(u64, W)>,
 }
 
-impl<W: Copy + Default> Served<W> {
+impl<W: Copy + Default, const MANY: bool> Served<W, MANY> {
     /// No read is on its way. `latency`: clocks from a read to its data.
     pub fn new(latency: u32, waits: Waits) -> Self {
         Served {
@@ -63,14 +64,14 @@ impl<W: Copy + Default> Served<W> {
     pub fn step(&mut self, read: Option<(u32, W)>, taken: bool, written: Option<u32>) {
         if taken {
             self.reads.pop();
-            if let Some(next) = self.more.pop_front() {
+            if MANY && let Some(next) = self.more.pop_front() {
                 self.reads.push(next);
             }
         }
         let late = self.pacer.step(self.now, read.map(|(addr, _)| addr), written);
         if let Some((_, word)) = read {
             let read = (self.now.wrapping_add(self.latency).wrapping_add(late), word);
-            if self.reads.len() < NEAR {
+            if !MANY || self.reads.len() < NEAR {
                 self.reads.push(read);
             } else {
                 self.more.push_back(read);

@@ -131,23 +131,18 @@ impl<const C: usize> Span<C> {
     fn move_on(&mut self, line: &Line<C>, events: &mut Events) {
         let fresh = line.fresh | self.pend_fresh;
         let fence = line.fence | self.pend_fence;
-        if self.is_empty(line) {
+        let Some(Cut { start, end, turned, side }) = self.cut(line) else {
             self.pend_fresh = fresh;
             self.pend_fence = fence;
             events.span.empty_span += 1;
             events.span.dropped_fresh += u64::from(fresh);
             events.span.line_off += u64::from(line.thin);
             return;
-        }
-        let leftward = line.major_right && !self.textbook && !line.thin;
-        let (start, end) = self.columns(line);
-        let [width, _] = self.screen;
-        let (x, y, count) = match (line.thin, leftward) {
-            (true, _) if line.flat => (line.y as i32, line.major as u32, 1), // both on the screen
-            (true, _) => (line.major, line.y, 1),
-            (false, true) => (end - 1, line.y, end - start.max(0)),
-            (false, false) => (start, line.y, end.min(width) - start),
         };
+        let leftward = line.major_right && !self.textbook && !line.thin;
+        let (x, count) =
+            if leftward { (end - 1, end - start.max(0)) } else { (start, end.min(side) - start) };
+        let (x, y) = if turned { (line.y as i32, x as u32) } else { (x, line.y) }; // both on the screen
         self.fifo.push(tokens::Span {
             x,
             y,
@@ -161,28 +156,36 @@ impl<const C: usize> Span<C> {
         self.fresh_in_fifo += u32::from(fresh);
         self.pend_fresh = false;
         self.pend_fence = false;
-        let cut = if leftward { start < 0 } else { end > width };
-        events.span.scissor_cut += u64::from(cut && !line.thin);
+        // A pixel of a line is on the screen or dropped.
+        events.span.scissor_cut += u64::from(if leftward { start < 0 } else { end > side });
     }
 
-    /// The columns of a line from left to right, the last one excluded.
-    #[inline]
-    fn columns(&self, line: &Line<C>) -> (i32, i32) {
-        let (start, end) = if line.major_right { (line.minor, line.major) } else { (line.major, line.minor) };
-        // In textbook fill C is 1 + Trunc(X), and both ends are drawn.
-        (start.wrapping_sub(i32::from(self.textbook)), end)
-    }
-
-    /// No column of the line lies on the screen.
-    #[inline]
-    fn is_empty(&self, line: &Line<C>) -> bool {
+    /// The columns of a line, if one lies on the screen.
+    #[inline(always)]
+    fn cut(&self, line: &Line<C>) -> Option<Cut> {
+        let (start, end) = if line.thin {
+            (line.major, line.major.wrapping_add(1))
+        } else {
+            let (start, end) =
+                if line.major_right { (line.minor, line.major) } else { (line.major, line.minor) };
+            // In textbook fill C is 1 + Trunc(X), and both ends are drawn.
+            (start.wrapping_sub(i32::from(self.textbook)), end)
+        };
         let [width, height] = self.screen;
-        if line.thin {
-            return !(0..if line.flat { height } else { width }).contains(&line.major);
-        }
-        let (start, end) = self.columns(line);
-        end.min(width) <= start.max(0)
+        let turned = line.thin & line.flat;
+        let side = if turned { height } else { width };
+        (end.min(side) > start.max(0)).then_some(Cut { start, end, turned, side })
     }
+}
+
+/// The columns of a line from left to right, the last one excluded.
+struct Cut {
+    start: i32,
+    end: i32,
+    /// A pixel of a flat line: x and y have changed places, so these are lines.
+    turned: bool,
+    /// Columns of the screen, or lines.
+    side: i32,
 }
 
 impl<const C: usize> Ported<C> for Span<C> {

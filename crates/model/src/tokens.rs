@@ -107,7 +107,7 @@ pub struct EdgeWalk {
 
 impl EdgeWalk {
     /// Goes down a line; true is the carry. `column_bits` is COLW.
-    #[inline]
+    #[inline(always)]
     pub fn step(&mut self, column_bits: u32) -> bool {
         let carry = self.r < self.f;
         self.r += if carry { self.m - self.f } else { -self.f };
@@ -209,7 +209,7 @@ tokens! {
         /// Depth, colour, the user's own, and k_t where it is a channel.
         values: OutputWords<C> = [0; C] => [] channels [""()];
         /// k_t of the triangle; 0 where it is a channel.
-        kt: u32 = 0 => [kt()];
+        kt: u16 = 0 => [kt()];
         /// Behind SHADOW: the light reaches it.
         lit: bool = false => [lit()];
         /// First fragment of its triangle or, in textbook fill, of its lower part; behind DEPTH of those that passed.

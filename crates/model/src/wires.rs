@@ -9,19 +9,49 @@
 use crate::depth::{Block, DepthInputs};
 use crate::io::Inputs;
 use crate::stage::Made;
-use crate::word_memory::Ask;
+use crate::tokens::FEW;
+use crate::word_memory::{Ask, MEMORIES};
 
 /// Most stages of a pipe.
 pub(crate) const STAGES: usize = 8;
 
-/// What units offer in a cycle and hold in no register. It is kept from cycle to cycle, as room for it costs time.
+/// What units offer in a cycle and hold in no register. It is kept from cycle to cycle, as room for it costs time. A machine of few
+/// channels has none.
 #[derive(Clone, Debug, Default)]
-pub struct Offers<const C: usize> {
+pub struct Offers<const C: usize>(Option<Box<Room<C>>>);
+
+#[derive(Clone, Debug)]
+struct Room<const C: usize> {
+    made: Vec<Made<C>>,
+    asks: [Ask; MEMORIES],
+}
+
+impl<const C: usize> Offers<C> {
+    /// Room for a pipe of so many stages.
+    pub(crate) fn new(stages: usize) -> Self {
+        let room =
+            || Box::new(Room { made: vec![Made::default(); stages], asks: [Ask::default(); MEMORIES] });
+        Offers((C > FEW).then(room))
+    }
+
     /// Fragments that stages make, by place in the pipe.
-    pub(crate) made: Vec<Made<C>>,
+    #[inline(always)]
+    pub(crate) fn made(&self) -> &[Made<C>] {
+        self.0.as_ref().map_or(&[], |room| &room.made)
+    }
+
     /// What is asked of the memories that the host alone writes, in the order of
     /// [`Plan::word_memories`](edgewalk_machine::Plan::word_memories).
-    pub(crate) asks: Vec<Ask>,
+    #[inline(always)]
+    pub(crate) fn asks(&self) -> &[Ask] {
+        self.0.as_ref().map_or(&[], |room| &room.asks)
+    }
+
+    /// [`Self::made`] and [`Self::asks`], to be filled.
+    #[inline(always)]
+    pub(crate) fn parts(&mut self) -> (&mut [Made<C>], &mut [Ask]) {
+        self.0.as_mut().map_or((&mut [], &mut []), |room| (&mut room.made, &mut room.asks))
+    }
 }
 
 /// What is on the links.

@@ -46,7 +46,7 @@ enum Words {
 /// State of the memory.
 #[derive(Clone, Debug)]
 pub struct WordMemory {
-    served: Served<u128>,
+    served: Served<u128, true>,
     words: Words,
     /// The word at an address that was not written.
     clear: u128,

@@ -105,7 +105,7 @@ fn against_the_loop(
         let cycle = rig.cycle(triangles.peek().map(|triangle| (*triangle, 0)), writes_open(now));
         fragments.extend(cycle.read.map(|_| rig.model.last_read()));
         writes.extend(cycle.write());
-        if cycle.triangle {
+        if cycle.outputs.triangle {
             triangles.next();
         } else if cycle.outputs.idle && triangles.peek().is_none() {
             break;

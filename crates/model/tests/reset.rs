@@ -23,7 +23,7 @@ fn a_reset_machine_is_a_new_machine() {
                 let mut next = 0;
                 let cycle = |_| {
                     let cycle = rig.cycle(triangles.get(next).map(|t| (t, 0)), true);
-                    next += usize::from(cycle.triangle);
+                    next += usize::from(cycle.outputs.triangle);
                     cycle.outputs
                 };
                 (0..cycles).map(cycle).collect()

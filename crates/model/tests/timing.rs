@@ -38,7 +38,7 @@ fn trace(machine: &Plan, triangles: &[Triangle]) -> Trace {
     let mut trace = Trace::default();
     let tokens = triangles.iter().copied().map(Ok::<_, Infallible>);
     let Ok(()) = Rig::<MAX_CHANNELS>::new(machine, ALWAYS, Stalls::NONE).draw(tokens, |now, _, cycle| {
-        trace.triangles.extend(cycle.triangle.then_some(now));
+        trace.triangles.extend(cycle.outputs.triangle.then_some(now));
         trace.writes.extend(cycle.written.then_some(now));
         if let Some(addr) = cycle.read {
             let (x, y) = place(machine, addr);

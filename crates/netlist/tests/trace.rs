@@ -171,3 +171,34 @@ fn saif_counts_what_the_simulator_said() {
     let names: Vec<&str> = units.iter().map(|unit| unit.unit.as_str()).collect();
     assert_eq!(names, ["", "u_large", "u_middle"]);
 }
+
+#[test]
+fn transitions_of_written_memories_are_counted() {
+    let m = Module::new("top", "");
+    let count = m.reg("count", 4).reset(0);
+    count.set(count.q() + m.constant("ONE", 4, 1));
+    let memory = m.memory("ram", 2, 4, 4).starts(0);
+    memory.write(m.lit(1, 1), count.q().trunc(2), count.q());
+    m.output("q", memory.read(m.lit(1, 1), count.q().trunc(2)));
+    let mut sim = Simulator::new(&m.finish().unwrap());
+    let mut trace = Transitions::new(&sim, "top");
+    let mut seen = Vec::new();
+    for cycle in 0..20u32 {
+        sim.set_input("rst", u128::from(cycle == 0)).unwrap();
+        trace.sample(&mut sim);
+        seen.push(sim.memory("ram").unwrap().to_vec());
+        sim.tick();
+    }
+    let bits = trace.bits();
+    let mut all = 0;
+    for word in 0..4 {
+        for bit in 0..4 {
+            let wave: Vec<u128> = seen.iter().map(|words| words[word] >> bit & 1).collect();
+            let transitions = wave.windows(2).filter(|pair| pair[0] != pair[1]).count() as u64;
+            let counted = bits[&format!("ram[{word}][{bit}]")];
+            assert_eq!((counted.transitions, counted.high), (transitions, wave.iter().sum::<u128>() as u64));
+            all += transitions;
+        }
+    }
+    assert!(all > 10, "{all} transitions");
+}

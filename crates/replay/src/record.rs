@@ -4,7 +4,8 @@ use crate::recording::{Plane, Recorder, Recording};
 use edgewalk_machine::{
     DrawState, ForeignVertex, Maps, Pass, Plan, PortVertex, Shading, Step, first_of_picture, steps,
 };
-use edgewalk_model::{Cycle, Memories, Rig, Waits, for_channels};
+use edgewalk_model::tokens::MAX_CHANNELS;
+use edgewalk_model::{Cycle, Memories, Rig, Waits};
 
 /// The most cycles that a replay holds: about 200 MB in a browser and two seconds until they can be seen.
 pub const LIMIT: u64 = 200_000;
@@ -108,17 +109,17 @@ pub fn record_passes(
     for (triangle, number) in triangles.iter().zip(0..) {
         plan.accept(triangle, number)?;
     }
-    for_channels!(plan, C => run::<C>(plan, triangles, rules, waits, window))
+    run(plan, triangles, rules, waits, window)
 }
 
-fn run<const C: usize>(
+fn run(
     plan: &Plan,
     triangles: &[[PortVertex; 3]],
     rules: &Rules,
     waits: Waits,
     window: Window,
 ) -> Result<Recording, RecordError> {
-    let (total, cleared) = dry_run(Run::<C>::new(plan, triangles, rules, waits));
+    let (total, cleared) = dry_run(Run::new(plan, triangles, rules, waits));
     let last = window.to.unwrap_or(u64::MAX).min(total - 1);
     if window.from > last {
         return Err(RecordError::Outside { from: window.from, last, total });
@@ -130,7 +131,7 @@ fn run<const C: usize>(
     if let Some(cycle) = cleared.into_iter().find(|cycle| (window.from + 1..=last).contains(cycle)) {
         return Err(RecordError::Cleared { cycle });
     }
-    let mut run = Run::<C>::new(plan, triangles, rules, waits);
+    let mut run = Run::new(plan, triangles, rules, waits);
     for _ in 0..window.from {
         _ = run.cycle();
     }
@@ -144,7 +145,7 @@ fn run<const C: usize>(
 }
 
 /// How many cycles a run takes, and the first cycle behind each clearing of a memory.
-fn dry_run<const C: usize>(mut run: Run<'_, C>) -> (u64, Vec<u64>) {
+fn dry_run(mut run: Run<'_>) -> (u64, Vec<u64>) {
     let (mut total, mut cleared) = (0, Vec::new());
     while !run.ended {
         if run.cycle() {
@@ -157,7 +158,7 @@ fn dry_run<const C: usize>(mut run: Run<'_, C>) -> (u64, Vec<u64>) {
 
 /// What memory holds, by field of the tokens that are stored and by pixel, row by row; then, in a machine that draws its
 /// map, the words of the map. Of the light's answer, which goes with a write and into no memory here, nothing is known.
-fn memory<const C: usize>(plan: &Plan, memories: &Memories<C>) -> Vec<Plane> {
+fn memory(plan: &Plan, memories: &Memories<MAX_CHANNELS>) -> Vec<Plane> {
     let plane = |of_map: bool, [width, height]: [u32; 2], x_bits: u32, place: usize, bits: u32| {
         let addresses = (0..height).flat_map(|y| (0..width).map(move |x| y << x_bits | x));
         Plane::new(bits, addresses.map(|addr| memories.stored(of_map, addr)[place]))
@@ -180,10 +181,10 @@ pub(crate) fn map_channels(plan: &Plan) -> std::ops::Range<usize> {
     0..if plan.shadow.transmits() { 2 } else { 1 }
 }
 
-/// A machine that draws triangles, one cycle at a time.
-struct Run<'a, const C: usize> {
+/// A machine that draws triangles, one cycle at a time. One of most channels serves any plan.
+struct Run<'a> {
     plan: &'a Plan,
-    rig: Rig<C>,
+    rig: Rig<MAX_CHANNELS>,
     triangles: &'a [[PortVertex; 3]],
     /// How many were taken.
     taken: usize,
@@ -195,7 +196,7 @@ struct Run<'a, const C: usize> {
     ended: bool,
 }
 
-impl<'a, const C: usize> Run<'a, C> {
+impl<'a> Run<'a> {
     fn new(plan: &'a Plan, triangles: &'a [[PortVertex; 3]], rules: &Rules<'a>, waits: Waits) -> Self {
         let mut rig = Rig::new(plan, first_of_picture(rules.passes), waits);
         rig.memories.write_shading(plan, rules.shading);
@@ -226,8 +227,8 @@ impl<'a, const C: usize> Run<'a, C> {
 
     /// Whether a memory was cleared behind it.
     fn cycle(&mut self) -> bool {
-        let cycle: Cycle<C> = self.rig.cycle(self.offered(), true);
-        if cycle.triangle {
+        let cycle: Cycle<MAX_CHANNELS> = self.rig.cycle(self.offered(), true);
+        if cycle.outputs.triangle {
             (self.taken, self.left) = (self.taken + 1, self.left - 1);
         } else if cycle.outputs.idle && self.left == 0 {
             return self.next();

@@ -1,7 +1,6 @@
 //! What an input is, by its name.
 
 use crate::error::{Fault, InputError};
-use crate::scene::Scene;
 use edgewalk_nearest::nearest;
 use std::path::Path;
 
@@ -15,6 +14,9 @@ pub enum InputKind {
     /// A mesh file.
     Mesh,
 }
+
+/// The names of the built-in scenes.
+pub(crate) const BUILTIN: [&str; 5] = ["sphere", "torus", "torus-knot", "terrain", "room"];
 
 /// Every end of a file's name, with what the file is.
 const ENDS: [(&str, InputKind); 5] = [
@@ -33,7 +35,7 @@ impl InputKind {
     pub fn of(name: &str) -> Option<Self> {
         let path = Path::new(name);
         let piped = || path.metadata().is_ok_and(|data| !data.is_file() && !data.is_dir());
-        if Scene::BUILTIN.contains(&name) {
+        if BUILTIN.contains(&name) {
             return Some(Self::Scene);
         }
         match path.extension() {
@@ -54,12 +56,12 @@ impl InputKind {
 
 /// What is wrong with a name that says no kind.
 pub(crate) fn unknown(name: &str) -> InputError {
-    let builtin = Scene::BUILTIN.join(" ");
+    let builtin = BUILTIN.join(" ");
     let path = Path::new(name);
     let end = path.extension().map(|end| end.to_string_lossy());
     if end.is_none() && !path.exists() {
         let mut fault = Fault::new("built-in scenes", None, "name", name, format!("permitted: {builtin}"));
-        fault.nearest = nearest(name, Scene::BUILTIN);
+        fault.nearest = nearest(name, BUILTIN);
         return fault.into();
     }
     let permitted = format!(

@@ -4,7 +4,7 @@ use crate::camera::Camera;
 use crate::clip::{ClipVertex, Viewport, clip};
 use crate::error::InputError;
 use crate::frame::Frame;
-use crate::kind::unknown;
+use crate::kind::{BUILTIN, unknown};
 use crate::light::Light;
 use crate::mesh::{self, Mesh};
 use crate::normals::{NormalRule, corner_normals, face_normals};
@@ -34,7 +34,7 @@ pub struct Scene {
 
 impl Scene {
     /// The names of the built-in scenes.
-    pub const BUILTIN: [&'static str; 5] = ["sphere", "torus", "torus-knot", "terrain", "room"];
+    pub const BUILTIN: [&'static str; 5] = BUILTIN;
 
     /// A built-in scene.
     ///

@@ -31,6 +31,7 @@ mod timing;
 mod cache;
 mod flow;
 mod report;
+mod standard_cells;
 
 pub use cache::Cache;
 pub use cells::Cells;
@@ -40,5 +41,8 @@ pub use memories::{Block, Blocks, Memory};
 pub use packed::Packed;
 pub use part::{Part, UnknownPart};
 pub use report::{Mhz, Outcome, Seed, UnitCells};
+pub use standard_cells::{
+    Activity, Gates, LIBRARY, Library, Placeless, Power, UnitArea, UnitPower, gates, power,
+};
 pub use target::{TARGETS, Target};
 pub use timing::{CriticalPath, Point};

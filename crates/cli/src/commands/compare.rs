@@ -45,7 +45,7 @@ use std::path::PathBuf;
   edgewalk compare default textbook sphere --stalls dram --out out/compare
   edgewalk compare default default,setup.lanes=1 sphere --synth ice40-hx8k")]
 pub struct Args {
-    /// A machine: FILE|PRESET[,key=value...][:SHADING]
+    /// A machine: `FILE|PRESET[,key=value...][:SHADING]`
     #[arg(value_name = "A")]
     a: String,
     /// Another machine, in the same form

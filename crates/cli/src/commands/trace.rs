@@ -2,17 +2,20 @@
 
 use crate::Talk;
 use crate::document::document;
-use crate::input::{Source, to_port};
+use crate::input::{PortFrame, Source, to_port};
 use crate::machine_args::MachineArgs;
 use crate::staging::Staging;
+use crate::suites::of_input;
 use crate::verdict::Verdict;
-use anyhow::{Context, Result, anyhow};
+use anyhow::{Context, Result, anyhow, ensure};
 use edgewalk_lockstep::StallKind;
-use edgewalk_machine::Activity;
+use edgewalk_machine::{Activity, Plan};
 use edgewalk_netlist::{FstTrace, Labels, Simulator, Transitions, UnitTransitions, VcdTrace};
+use edgewalk_vectors::{Runs, Unit};
 use serde_json::json;
 use std::fs::File;
 use std::io::BufWriter;
+use std::ops::Range;
 use std::path::PathBuf;
 
 /// Run the machine's netlist and write the waveform or the transitions of every signal that can change.
@@ -24,7 +27,10 @@ use std::path::PathBuf;
 #[command(after_help = "Examples:
   edgewalk trace sphere --out out/sphere.fst --triangles 20
   edgewalk trace triangles.tri --out out/t.vcd --cycles 5000 --set interpolator.adders=1
-  edgewalk trace sphere --out out/sphere.saif --triangles 100 --cycles 100000")]
+  edgewalk trace sphere --out out/sphere.saif --triangles 100 --cycles 100000
+  edgewalk trace sphere --out out/t.vcd --from 1000 --to 1500
+  edgewalk trace sphere --out out/t.vcd --triangles 100 --pixel 320 200
+  edgewalk trace sphere --out out/t.vcd --triangles 100 --triangle 57")]
 pub struct Args {
     #[command(flatten)]
     source: Source,
@@ -34,9 +40,21 @@ pub struct Args {
     /// Draw this many triangles of the input
     #[arg(long, default_value_t = 10)]
     triangles: usize,
-    /// Stop after this many cycles
+    /// Stop after this many cycles of waveform
     #[arg(long, default_value_t = 20_000)]
     cycles: u64,
+    /// First cycle of the waveform; times are those of the whole run
+    #[arg(long, value_name = "CYCLE", conflicts_with_all = ["pixel", "triangle"])]
+    from: Option<u64>,
+    /// Last cycle of the waveform
+    #[arg(long, value_name = "CYCLE", conflicts_with_all = ["pixel", "triangle"])]
+    to: Option<u64>,
+    /// The writes of this pixel, with 40 cycles before the first of them
+    #[arg(long, num_args = 2, value_names = ["X", "Y"], conflicts_with = "triangle")]
+    pixel: Option<Vec<u32>>,
+    /// The cycles from the entry of this triangle to its last write; 0 is the first triangle
+    #[arg(long, value_name = "N")]
+    triangle: Option<u32>,
 }
 
 /// The outermost scope.
@@ -65,17 +83,25 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
     }
     let name = args.out.file_name().and_then(|n| n.to_str()).context("--out: no file name")?;
     let folder = args.out.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(".".as_ref());
+    let window = window(args, &machine, &port)?;
     let out = Staging::new(folder)?;
     let mut file = Some(out.create(name)?);
     let mut wave: Option<Wave> = None;
     let mut failure: Result<()> = Ok(());
-    let mut cycles = 0;
+    let mut cycle = 0;
     let triangles = port.triangles.iter().take(args.triangles).copied();
     edgewalk_lockstep::render_rtl_with(&machine, triangles, port.state()?, StallKind::None, |sim| {
-        failure = sample(&mut wave, &mut file, kind, sim);
-        cycles += 1;
-        failure.is_ok() && cycles < args.cycles
+        failure = sample(&mut wave, &mut file, kind, sim, window.contains(&cycle));
+        cycle += 1;
+        failure.is_ok() && cycle < window.end
     })?;
+    let cycles = cycle.saturating_sub(window.start);
+    ensure!(
+        cycles > 0,
+        "--from {}: the run ends after {cycle} cycles; permitted: 0 to {}",
+        window.start,
+        cycle - 1
+    );
     failure.with_context(|| out.name(name))?;
     let mut units = None;
     match wave {
@@ -134,12 +160,71 @@ fn table(units: &[UnitTransitions], cycles: u64) -> String {
     units.iter().fold(head, |text, unit| text + &line(unit))
 }
 
-/// Takes a sample; the first opens the file, as it needs the simulator's list of signals.
+/// Cycles shown before the first write of a pixel.
+const BEFORE: u64 = 40;
+
+/// The cycles to be written.
+fn window(args: &Args, machine: &Plan, port: &PortFrame) -> Result<Range<u64>> {
+    let cycles = |from: u64, behind: u64| from..behind.min(from.saturating_add(args.cycles));
+    if args.pixel.is_none() && args.triangle.is_none() {
+        let (from, to) = (args.from.unwrap_or(0), args.to.unwrap_or(u64::MAX));
+        ensure!(
+            from <= to,
+            "--from {from} --to {to}: the last cycle is before the first; permitted: --to {from} or more"
+        );
+        return Ok(cycles(from, to.saturating_add(1)));
+    }
+    ensure!(
+        !machine.shade.is_there(),
+        "--pixel and --triangle: the machine shades at each pixel; permitted with shade.kind = none; --from and --to take any machine"
+    );
+    let mut suite = of_input(&args.source.input, machine, port, None)?;
+    suite.cases.iter_mut().for_each(|case| case.triangles.truncate(args.triangles));
+    let run = Runs::new(machine, &suite, suite.state).capture(Unit::MACHINE, StallKind::None);
+    let memories = run.interface.memories.iter().filter(|memory| ["depth", "color"].contains(&memory.name));
+    let writes = memories.filter_map(|memory| memory.write).map(|write| (write, &run.links[write.link]));
+    if let Some(pixel) = &args.pixel {
+        let (x, y) = (pixel[0], pixel[1]);
+        ensure!(
+            x < machine.width && y < machine.height,
+            "--pixel {x} {y}: is off the screen; permitted: 0 0 to {} {}",
+            machine.width - 1,
+            machine.height - 1
+        );
+        let address = u128::from(y << machine.widths().x | x);
+        let of = writes.flat_map(|(write, link)| {
+            let tokens = link.tokens.iter().zip(&link.cycles);
+            tokens.filter(move |(token, _)| token[write.address] == address).map(|(_, cycle)| *cycle)
+        });
+        let at: Vec<u64> = of.collect();
+        let (Some(first), Some(last)) = (at.iter().min(), at.iter().max()) else {
+            return Err(anyhow!(
+                "--pixel {x} {y}: none of the {} triangles writes it; take another, or more --triangles",
+                suite.triangles().count()
+            ));
+        };
+        return Ok(cycles(first.saturating_sub(BEFORE), last + 2));
+    }
+    let triangle = args.triangle.unwrap_or(0);
+    let enters = run.links[0].triangles.iter().position(|entered| *entered == triangle);
+    let Some(enters) = enters.map(|place| run.links[0].cycles[place]) else {
+        return Err(anyhow!("--triangle {triangle}: permitted: 0 to {}", suite.triangles().count() - 1));
+    };
+    let of = writes.flat_map(|(_, link)| {
+        let all = link.triangles.iter().zip(&link.cycles);
+        all.filter(|(of, _)| **of == triangle).map(|(_, cycle)| *cycle)
+    });
+    let last = of.max().unwrap_or(enters);
+    Ok(cycles(enters, last + 2))
+}
+
+/// Takes a sample where one is wanted; the first cycle opens the file, as it needs the simulator's list of signals.
 fn sample(
     wave: &mut Option<Wave>,
     file: &mut Option<BufWriter<File>>,
     kind: &str,
     sim: &mut Simulator,
+    wanted: bool,
 ) -> Result<()> {
     if let Some(file) = file.take() {
         let names = Activity::ALL.map(Activity::name);
@@ -151,10 +236,12 @@ fn sample(
         });
     }
     match wave {
-        Some(Wave::Vcd(w)) => w.sample(sim)?,
-        Some(Wave::Fst(w)) => w.sample(sim)?,
-        Some(Wave::Saif(counted, _)) => counted.sample(sim),
-        None => {}
+        Some(Wave::Vcd(w)) if wanted => w.sample(sim)?,
+        Some(Wave::Fst(w)) if wanted => w.sample(sim)?,
+        Some(Wave::Saif(counted, _)) if wanted => counted.sample(sim),
+        Some(Wave::Vcd(w)) => w.pass(),
+        Some(Wave::Fst(w)) => w.pass(),
+        Some(Wave::Saif(..)) | None => {}
     }
     Ok(())
 }

@@ -46,13 +46,8 @@ impl Grid {
         -(self.centre - place).div_euclid(self.pitch())
     }
 
-    /// The pixel whose centre is nearest to `numerator` / `denominator`, which are below 2^60 and 2^30; of two the lesser one.
-    pub(crate) fn nearest_pixel(self, numerator: i64, denominator: i64) -> i64 {
-        let end = self.centre + self.pitch() / 2;
-        -(end * denominator - numerator).div_euclid(self.pitch() * denominator)
-    }
-
-    /// The pixel that holds the quotient, or ends there: on the border of two pixels the one before. Numbers as above.
+    /// The pixel that holds the quotient, or ends there: on the border of two pixels the one before. The numerator is below 2^61, the
+    /// denominator below 2^30.
     pub(crate) fn pixel_before_quotient(self, numerator: i64, denominator: i64) -> i64 {
         let edge = self.centre - self.pitch() / 2;
         -(edge * denominator - numerator).div_euclid(self.pitch() * denominator) - 1

@@ -2,9 +2,9 @@
 
 use crate::cover::Cover;
 use crate::depth::compare;
+use crate::drawing::CLEARED;
 use crate::fill::Fill;
 use crate::fragment::{Fragment, Weight};
-use crate::picture::CLEARED;
 use crate::polygon::{EdgeTable, Grid, Span};
 use edgewalk_scene::{Polygon, Primitive, ShadeMode};
 use std::cmp::Ordering;

@@ -15,7 +15,7 @@ impl<const C: usize> Model<C> {
     #[inline(always)]
     #[must_use]
     pub fn wires(&self, inputs: &Inputs, offers: &mut Offers<C>) -> Wires {
-        let (pipe, Offers { made, asks }) = (self.pipe(), offers);
+        let (pipe, (made, asks)) = (self.pipe(), offers.parts());
         let mut wires = Wires {
             offered: [false; STAGES + 1],
             ready: [false; STAGES + 1],

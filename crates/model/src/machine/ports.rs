@@ -20,9 +20,9 @@ pub trait ShownUnits {
 impl<const C: usize> Model<C> {
     /// Shows the outputs of every unit in a cycle with these inputs, before the clock edge.
     pub fn show(&self, inputs: &Inputs, out: &mut impl ShownUnits) {
-        let (mut offers, pipe) = (self.no_offers(), self.pipe());
+        let (mut offers, pipe) = (self.room(), self.pipe());
         let wires = self.wires(inputs, &mut offers);
-        let made = &offers.made;
+        let made = offers.made();
         let state = inputs.state();
         let held = self.walker.held();
         let fresh_queued = self.span.fresh_queued();

@@ -11,9 +11,9 @@ impl<const C: usize> Model<C> {
     pub fn view(&self, plan: &Plan, inputs: &Inputs, view: &mut View) {
         view.begin(inputs.shadow.light_pass);
         let Model { setup, walker, span, pixel, depth, .. } = self;
-        let mut offers = self.no_offers();
+        let mut offers = self.room();
         let wires = self.wires(inputs, &mut offers);
-        let made = &offers.made;
+        let made = offers.made();
         let fresh_queued = span.fresh_queued();
         let (prim, line) = (setup.prim(), walker.line());
         let line_taken = line.is_some() && span.line_ready();

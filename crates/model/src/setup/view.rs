@@ -2,7 +2,7 @@
 
 use super::edges::{no_columns, parts};
 use super::schedule::{Job, Schedule, schedule};
-use super::{Setup, State};
+use super::{Setup, SetupClocks, State};
 use crate::tokens::EdgeWalk;
 use crate::view::{Shape, View, increment, modulo, word};
 use edgewalk_machine::units::tokens::{EDGES, results};
@@ -45,18 +45,25 @@ impl<const C: usize> Setup<C> {
         }
         let drops = self.state == State::Phase1 && self.culled && self.remaining == 0;
         view.says(drops, "drops the triangle: no line, no column, or no area.");
-        view.says(done && prim_ready, "hands the triangle over: {n1} + {n2} lines from line {jm} on.");
-        view.says(
-            done && !prim_ready,
-            if self.plan.polygon.is_there() {
-                "waits with the prim: POLY loads its edges, or walks, or PIXEL has not taken the increments of the polygon before."
-            } else {
-                "waits with the triangle: EDGE walks, or PIXEL has not taken the increments of the one before."
-            },
-        );
-        view.takes(if self.plan.is_sequenced() { "in" } else { "tri" }, tri.is_some(), idle);
+        let offered = self.prim().is_some();
         let walker = if self.plan.polygon.is_there() { "poly" } else { "edge" };
-        view.gives("prim", Some(walker), done, prim_ready);
+        if self.sequenced {
+            let waits = self.state == State::Phase1 && self.remaining == 0 && !self.culled && offered;
+            view.says(waits, "waits: EDGE still reads the registers of the triangle before.");
+            view.says(offered && prim_ready, "EDGE has walked the triangle before: its registers are free.");
+        } else {
+            view.says(done && prim_ready, "hands the triangle over: {n1} + {n2} lines from line {jm} on.");
+            view.says(
+                done && !prim_ready,
+                if self.plan.polygon.is_there() {
+                    "waits with the prim: POLY loads its edges, or walks, or PIXEL has not taken the increments of the polygon before."
+                } else {
+                    "waits with the triangle: EDGE walks, or PIXEL has not taken the increments of the one before."
+                },
+            );
+        }
+        view.takes(if self.sequenced { "in" } else { "tri" }, tri.is_some(), idle);
+        view.gives("prim", Some(walker), offered, prim_ready);
         view.step("triangle", 't');
     }
 
@@ -88,7 +95,8 @@ impl<const C: usize> Setup<C> {
 
     pub(super) fn jobs(&self) -> Schedule {
         if self.plan.is_sequenced() {
-            return Schedule([vec![(Job::Program, self.clocks.phase1)], Vec::new()]);
+            let SetupClocks { phase1, phase2 } = self.clocks;
+            return Schedule([phase1, phase2].map(|clocks| vec![(Job::Program, clocks)]));
         }
         let parts = parts(&self.plan, self.screen, &self.sorted);
         let plane = matches!(self.sorted.role, Role::Plane(_));

@@ -43,7 +43,7 @@ impl<const C: usize> Span<C> {
         view.lane(count, held.is_some() || !self.fifo.is_empty());
 
         let moves = held.is_some() && self.has_room();
-        let empty = held.is_some_and(|line| self.is_empty(line));
+        let empty = held.is_some_and(|line| self.cut(line).is_none());
         view.says(line.is_some() && self.line_ready(), "takes the line and cuts it where it ends.");
         view.says(moves && !empty, "queues the pixels of line {held_y}.");
         view.says(moves && empty, "drops line {held_y}: no column of it is on the screen.");

@@ -14,7 +14,7 @@ pub fn word(plan: &Plan, rgb: [u32; 3]) -> u64 {
 
 /// A fragment of this colour and k_t, the triangle's or that of its channel.
 pub fn fragment(addr: u32, [r, g, b]: [u32; 3], kt: u32) -> Fragment<C> {
-    Fragment { addr, values: [0, r, g, b, kt, 0, 0, 0], kt, ..Fragment::default() }
+    Fragment { addr, values: [0, r, g, b, kt, 0, 0, 0], kt: kt as u16, ..Fragment::default() }
 }
 
 /// Feeds BLEND and its memory with a fragment a clock; gives the memory, the writes, the events and the cycles.

@@ -147,6 +147,13 @@ impl Simulator {
         Ok(&self.flat.memories[*index].words)
     }
 
+    /// The memories that are written: path and bits of a word.
+    pub fn written_memories(&self) -> impl Iterator<Item = (&str, u32)> {
+        let all = self.flat.memory_names.iter().map(|(path, index)| (path, &self.flat.memories[*index]));
+        let written = all.filter(|(_, memory)| !memory.writes.is_empty());
+        written.map(|(path, memory)| (path.as_str(), self.flat.widths[memory.writes[0].2 as usize]))
+    }
+
     /// Computes everything that follows from inputs and registers, if anything changed. Reading a signal does it too.
     pub fn eval(&mut self) {
         if !std::mem::replace(&mut self.stale, false) {

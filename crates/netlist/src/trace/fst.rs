@@ -76,6 +76,11 @@ impl<W: Write + Seek> FstTrace<W> {
         Ok(())
     }
 
+    /// Lets a cycle pass in place of a sample: nothing is written of it, and the next sample is a cycle later.
+    pub fn pass(&mut self) {
+        self.watch.pass();
+    }
+
     /// Ends the last cycle.
     ///
     /// # Errors

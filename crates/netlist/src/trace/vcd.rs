@@ -59,6 +59,11 @@ impl<W: Write> VcdTrace<W> {
         self.writer.change_scalar(self.clk, false)
     }
 
+    /// Lets a cycle pass in place of a sample: nothing is written of it, and the next sample is a cycle later.
+    pub fn pass(&mut self) {
+        self.watch.pass();
+    }
+
     /// Ends the last cycle.
     ///
     /// # Errors

@@ -104,6 +104,11 @@ impl Watch {
         self.cycles * CYCLE
     }
 
+    /// A cycle of which no sample is taken.
+    pub fn pass(&mut self) {
+        self.cycles += 1;
+    }
+
     /// Characters of the longest name of each text.
     pub fn text_widths(&self) -> Vec<usize> {
         let longest = |names: &Vec<String>| names.iter().map(String::len).max().unwrap_or(0).max(1);

@@ -226,7 +226,7 @@ impl Case {
                     let cycle = rig.cycle(offered, true);
                     let now = now.next().expect("fewer than 2^32 cycles");
                     see(now, &view, cycle.write().map(|write| (write.addr, write.source.id)));
-                    if cycle.triangle {
+                    if cycle.outputs.triangle {
                         (waiting, left) = (&waiting[1..], left - 1);
                     } else if cycle.outputs.idle && left == 0 {
                         break;

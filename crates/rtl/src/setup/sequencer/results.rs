@@ -1,8 +1,8 @@
 //! The prim: its registers take A and W of the lanes two clocks behind the word that gives them.
 
 use edgewalk_machine::Field;
+use edgewalk_machine::sequencer::edges_are_beside;
 use edgewalk_machine::sequencer::word::Give;
-use edgewalk_machine::sequencer::{edges_are_beside, rounds};
 use edgewalk_machine::units::tokens::EDGES;
 use edgewalk_netlist::Signal;
 
@@ -64,9 +64,7 @@ pub(super) fn results<'m>(parts: &Parts<'_, 'm>, control: &Control<'m>, fields: 
         {
             let register = prim[format!("{}_{part}", channel.name).as_str()];
             let value = whole.slice(below + register.q().width() - 1, below);
-            let turn =
-                if rounds(parts.plan) == 1 { gives(what) } else { gives(what) & number.eq(round as u128) };
-            register.when(turn, value);
+            register.when(gives(what) & number.eq(round as u128), value);
         }
     }
     prim

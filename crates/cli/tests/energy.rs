@@ -1,0 +1,148 @@
+//! `edgewalk energy`: every figure of the text is one of the JSON, and each follows from the others.
+#![allow(clippy::unwrap_used)] // a test that unwraps nothing reports it
+
+use crate::support::{edgewalk, run};
+use serde_json::Value;
+use std::path::Path;
+
+/// A machine that Yosys maps in a few seconds.
+const SMALL: [&str; 8] = [
+    "--set",
+    "screen.width=24",
+    "--set",
+    "screen.height=16",
+    "--set",
+    "screen.guard_bits=5",
+    "--set",
+    "setup.lanes=1",
+];
+
+/// What the command prints for 300 triangles of the sphere, with these words more.
+fn energy(folder: &Path, more: &[&str]) -> String {
+    let words = [&["energy", "sphere", "--triangles", "300", "--cache", "cache"][..], &SMALL, more].concat();
+    let output = edgewalk(folder, &words).output().unwrap();
+    assert!(output.status.success(), "{words:?}: {}", String::from_utf8_lossy(&output.stderr));
+    String::from_utf8(output.stdout).unwrap()
+}
+
+fn number(of: &Value) -> f64 {
+    of.as_f64().unwrap_or_else(|| panic!("{of} is no number"))
+}
+
+/// Equal but for rounding.
+fn near(a: f64, b: f64) -> bool {
+    (a - b).abs() <= 1e-6 * a.abs().max(b.abs())
+}
+
+#[test]
+fn every_figure_of_energy_follows_from_the_others() {
+    let folder = tempfile::tempdir().unwrap();
+    let printed = energy(folder.path(), &["--json", "--mhz", "50"]);
+    let report: Value = serde_json::from_str(&printed).unwrap();
+    assert_eq!(report["format"], "edgewalk-energy");
+
+    // Areas: the units' are the whole, in gates too.
+    let units = report["units"].as_array().unwrap();
+    let sum = |key: &str| units.iter().map(|unit| number(&unit[key])).sum::<f64>();
+    assert!(near(sum("area_um2"), number(&report["area_um2"])));
+    assert!(near(sum("flip_flops"), number(&report["flip_flops"])));
+    let gate = 24.0; // the library's area of NAND2X1, um2
+    assert!(near(number(&report["kge"]), number(&report["area_um2"]) / gate / 1000.0));
+    let names: Vec<&str> = units.iter().map(|unit| unit["unit"].as_str().unwrap()).collect();
+    assert_eq!(names, ["setup", "edge", "span", "pixel", "depth", "joints"]);
+
+    // Power and energy: the units' are the whole, and so are cycles, triangles and pixels.
+    let (power, frame, energies) = (&report["power"], &report["frame"], &report["energy"]);
+    let watts = power["units"].as_array().unwrap().iter().map(|unit| number(&unit["watts"])).sum::<f64>();
+    assert!(near(watts, number(&power["watts"])));
+    assert!(power["leakage_watts"].as_f64().unwrap() < watts / 100.0);
+    let counted = power["counted"].as_u64().unwrap();
+    assert!(counted * 20 >= report["flip_flops"].as_u64().unwrap() * 19, "{counted} were counted");
+    let frame_pj = watts / 50e6 * 1e12 * number(&frame["cycles"]);
+    assert!(near(frame_pj, number(&energies["frame_pj"])));
+    assert_eq!(frame["triangles"], 300);
+    for (each, count) in [("cycle_pj", "cycles"), ("triangle_pj", "triangles"), ("pixel_pj", "writes")] {
+        assert!(near(number(&energies[each]), frame_pj / number(&frame[count])), "{each}");
+    }
+    let by_unit: f64 = energies["units"].as_object().unwrap().values().map(number).sum();
+    assert!(near(by_unit, frame_pj));
+
+    // The text says the same; a second run takes the gates from the cache and gives the same digits.
+    let text = energy(folder.path(), &["--mhz", "50"]);
+    for figure in [
+        format!(
+            "area {:.3} mm2, {:.1} thousand gates",
+            number(&report["area_um2"]) / 1e6,
+            number(&report["kge"])
+        ),
+        format!("clock {:.3} ns", number(&report["ns"])),
+        format!("power {:.2} mW at 50.0 MHz", watts * 1e3),
+        format!("energy {:.1} pJ a cycle", number(&energies["cycle_pj"])),
+        format!("{:.1} pJ a triangle, of 300", number(&energies["triangle_pj"])),
+        format!("{:.1} pJ a pixel written, of {}", number(&energies["pixel_pj"]), frame["writes"]),
+    ] {
+        assert!(text.contains(&figure), "{figure} is missing in\n{text}");
+    }
+    assert_eq!(energy(folder.path(), &["--json", "--mhz", "50"]), printed);
+
+    // A cycle's energy does not depend on the clock, but for the leakage.
+    let slow: Value = serde_json::from_str(&energy(folder.path(), &["--json", "--mhz", "5"])).unwrap();
+    let leakage = |of: &Value, mhz: f64| number(&of["power"]["leakage_watts"]) / mhz * 1e6;
+    let moved = |of: &Value, mhz: f64| number(&of["energy"]["cycle_pj"]) - leakage(of, mhz);
+    let (fast, slow) = (moved(&report, 50.0), moved(&slow, 5.0));
+    assert!((fast - slow).abs() < 1e-4 * fast, "{fast} and {slow} pJ");
+}
+
+#[test]
+fn energy_refuses_what_it_cannot_do() {
+    let folder = tempfile::tempdir().unwrap();
+    for (words, why) in [
+        (&["energy", "sphere", "--mhz", "0"][..], "permitted: 0.001 to 100000"),
+        (&["energy", "sphere", "--triangles", "0"], "nothing was drawn"),
+        (&["energy", "none.tri"], "none.tri: cannot be read"),
+    ] {
+        let (code, error) = run(folder.path(), words);
+        assert_eq!(code, Some(2), "{words:?}: {error}");
+        assert!(error.contains(why), "{words:?}: {error}");
+    }
+}
+
+/// Six pairs of machines of which theory says which takes less energy a frame. `--ignored` runs it; docs/energy.md has its
+/// result.
+#[test]
+#[ignore = "synthesis of eight machines: two minutes"]
+fn pairs_of_machines_are_ordered_as_expected() {
+    let folder = tempfile::tempdir().unwrap();
+    let pj = |set: &[&str]| {
+        let sets: Vec<&str> = set.iter().flat_map(|set| ["--set", *set]).collect();
+        let words =
+            [&["energy", "sphere", "--triangles", "100", "--json", "--cache", "cache"][..], &sets].concat();
+        let output = edgewalk(folder.path(), &words).output().unwrap();
+        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+        let report: Value = serde_json::from_slice(&output.stdout).unwrap();
+        let [frame, watts] = [&report["energy"]["frame_pj"], &report["power"]["watts"]].map(number);
+        println!(
+            "{set:?}: {:.1} nJ a frame, {:.2} mW, {:.1} kGE",
+            frame / 1e3,
+            watts * 1e3,
+            number(&report["kge"])
+        );
+        [frame, number(&report["energy"]["cycle_pj"])]
+    };
+    let default = pj(&[]);
+    let mut checked = 0;
+    // Of each pair: the machine, and whether a frame (0) or a cycle (1) of it takes less than the default's.
+    for (set, what, less) in [
+        (&["formats.z_fraction=6", "formats.color_fraction=6"][..], 0, true),
+        (&["interpolator.adders=1"], 1, true),
+        (&["setup.lanes=1"], 1, true),
+        (&["setup.kind=sequenced"], 1, true),
+        (&["memory.hazard=drain"], 1, true),
+        (&["fifo.span=32"], 1, false),
+    ] {
+        let other = pj(set);
+        assert_eq!(other[what] < default[what], less, "{set:?}: {other:?} beside {default:?}");
+        checked += 1;
+    }
+    println!("{checked} of 6 pairs");
+}

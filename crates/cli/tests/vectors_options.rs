@@ -1,0 +1,153 @@
+//! `edgewalk vectors`: `--seed`, `--stalls` and `--triangles` do what their help says.
+#![allow(clippy::unwrap_used)] // a test that unwraps nothing reports it
+
+use crate::support::run;
+use serde_json::Value;
+use std::path::Path;
+
+const SMALL: [&str; 6] =
+    ["--set", "screen.width=24", "--set", "screen.height=20", "--set", "screen.guard_bits=6"];
+
+/// Writes the vectors of a unit of machine; the folder's only directory is `name`.
+fn vectors(folder: &Path, out: &str, arguments: &[&str]) {
+    let (code, told) =
+        run(folder, &[&["vectors", "--no-csv", "--quiet", "--out", out][..], arguments].concat());
+    assert_eq!(code, Some(0), "{told}");
+}
+
+fn text(folder: &Path, file: &str) -> String {
+    std::fs::read_to_string(folder.join(file)).unwrap_or_else(|e| panic!("{file}: {e}"))
+}
+
+fn manifest(folder: &Path, directory: &str) -> Value {
+    serde_json::from_str(&text(folder, &format!("{directory}/manifest.json"))).unwrap()
+}
+
+#[test]
+fn a_seed_draws_triangles_and_stalls() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    std::fs::write(folder.join("own.tri"), triangles(&[0, 1, 2])).unwrap();
+    for (out, seed) in [("one", "1"), ("two", "2"), ("again", "2")] {
+        let random = ["--suite", "random", "--count", "5", "--unit", "setup", "--seed", seed];
+        vectors(folder, out, &[&random[..], &SMALL].concat());
+        let own = [
+            "own.tri",
+            "--unit",
+            "setup",
+            "--stalls",
+            "mixed",
+            "--seed",
+            seed,
+            "--set",
+            "screen.guard_bits=6",
+        ];
+        vectors(folder, &format!("{out}_own"), &own);
+        for directory in [format!("{out}/random_setup"), format!("{out}_own/own_setup")] {
+            assert_eq!(manifest(folder, &directory)["suite"]["seed"].to_string(), seed, "{directory}");
+        }
+    }
+    let random = |out: &str| text(folder, &format!("{out}/random_setup/tri.in.mem"));
+    assert_ne!(random("one"), random("two"));
+    assert_eq!(random("two"), random("again"));
+    // The triangles of a file stay, and wait in other cycles.
+    let own = |out: &str, file: &str| text(folder, &format!("{out}_own/own_setup/{file}"));
+    assert_eq!(own("one", "tri.in.mem"), own("two", "tri.in.mem"));
+    assert_ne!(own("one", "prim.willing.mem"), own("two", "prim.willing.mem"));
+    assert_eq!(own("two", "prim.willing.mem"), own("again", "prim.willing.mem"));
+}
+
+#[test]
+fn stalls_are_those_asked_for() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    let mut cycles = Vec::new();
+    for kind in ["none", "mixed", "late"] {
+        let suite = ["--suite", "hazards", "--unit", "depth", "--stalls", kind];
+        vectors(folder, kind, &[&suite[..], &SMALL].concat());
+        let depth = manifest(folder, &format!("{kind}/hazards_depth"));
+        assert_eq!(depth["stalls"]["kind"], kind);
+        cycles.push(depth["cycles"].as_u64().unwrap());
+        let willing = text(folder, &format!("{kind}/hazards_depth/wr.willing.mem"));
+        assert_eq!(willing.contains('0'), kind != "none", "{kind}");
+    }
+    println!("cycles without stalls, with mixed and with late ones: {cycles:?}");
+    assert!(cycles[0] < cycles[1] && cycles[0] < cycles[2] && cycles[1] != cycles[2], "{cycles:?}");
+    // Left out: those of the suite.
+    for (suite, kind) in [("hazards", "late"), ("random", "mixed"), ("sphere", "none")] {
+        vectors(folder, "own", &[&["--suite", suite, "--unit", "depth"][..], &SMALL].concat());
+        assert_eq!(manifest(folder, &format!("own/{suite}_depth"))["stalls"]["kind"], kind);
+    }
+}
+
+/// Triangles with these numbers, each unlike every other in place, colour and depth.
+fn triangles(numbers: &[u32]) -> String {
+    let triangle = |k: &u32| {
+        let (x, z) = (1 + k, f64::from(1 + k) / 16.0);
+        format!("T {x} 1 {z} 1 0 0 1  {} 3 0.5 0 {z} 0 1  4 15 0.8 0 0 1 1\n", x + 8)
+    };
+    "size 24 20\n".to_owned() + &numbers.iter().map(triangle).collect::<String>()
+}
+
+/// The same with normals and materials of their own.
+fn shaded(numbers: &[u32]) -> String {
+    let head = "size 24 20\nmode phong\nview 0 0 1\nsun 0.3 0.3 1 0.9\n";
+    let mut text = head.to_owned();
+    for k in numbers {
+        let (x, share) = (1 + k, f64::from(1 + k) / 16.0);
+        text += &format!("material 0.1 {share} 0.3 {}\n", 5 + k);
+        text += &format!("T {x} 1 0.2 1 0.5 0 1  {} 3 0.5 1 0.5 0 1  4 15 0.8 1 0.5 0 1\n", x + 8);
+        let (sine, cosine) = (f64::from(*k) / 10.0).sin_cos();
+        text += &format!("N {sine:.4} 0 {cosine:.4}  0 {sine:.4} {cosine:.4}  0 0 1\n");
+    }
+    text
+}
+
+/// Ten triangles are every first, second, fourth, fifth or tenth of ten, as the number wanted asks for at least.
+const SAMPLES: [(&str, &[u32]); 6] = [
+    ("1", &[0]),
+    ("2", &[0, 5]),
+    ("3", &[0, 4, 8]),
+    ("4", &[0, 3, 6, 9]),
+    ("9", &[0, 2, 4, 6, 8]),
+    ("10", &[0, 1, 2, 3, 4, 5, 6, 7, 8, 9]),
+];
+
+#[test]
+fn a_sample_is_every_nth_triangle() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    std::fs::write(folder.join("all.tri"), triangles(&(0..10).collect::<Vec<_>>())).unwrap();
+    let guard = ["--set", "screen.guard_bits=6", "--unit", "setup"];
+    for (wanted, numbers) in SAMPLES {
+        std::fs::write(folder.join("some.tri"), triangles(numbers)).unwrap();
+        vectors(folder, "sample", &[&["all.tri", "--triangles", wanted][..], &guard].concat());
+        vectors(folder, "some", &[&["some.tri"][..], &guard].concat());
+        assert_eq!(manifest(folder, "sample/all_setup")["suite"]["triangles"], numbers.len(), "{wanted}");
+        for file in ["tri.in.mem", "prim.exp.mem"] {
+            let (sample, some) = (format!("sample/all_setup/{file}"), format!("some/some_setup/{file}"));
+            assert_eq!(text(folder, &sample), text(folder, &some), "{wanted}: {file}");
+        }
+    }
+}
+
+#[test]
+fn a_sample_brings_its_records() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    std::fs::write(folder.join("all.tri"), shaded(&(0..10).collect::<Vec<_>>())).unwrap();
+    let machine = ["--set", "shade.kind=phong", "--set", "screen.guard_bits=6", "--unit", "machine"];
+    let places = |words: &str| words.lines().map(str::to_owned).collect::<Vec<_>>();
+    vectors(folder, "whole", &[&["all.tri"][..], &machine].concat());
+    let whole = places(&text(folder, "whole/all_machine/terms.start.mem"));
+    let record = whole.len() / 10;
+    let distinct: std::collections::BTreeSet<_> = whole.chunks(record).collect();
+    assert!(record > 1 && whole.len() == 10 * record && distinct.len() == 10, "{} words", whole.len());
+    for (wanted, numbers) in &SAMPLES[1..4] {
+        vectors(folder, "sample", &[&["all.tri", "--triangles", wanted][..], &machine].concat());
+        let found = places(&text(folder, "sample/all_machine/terms.start.mem"));
+        let expected: Vec<_> =
+            numbers.iter().flat_map(|k| &whole[*k as usize * record..][..record]).cloned().collect();
+        assert_eq!(found, expected, "--triangles {wanted}");
+    }
+}
