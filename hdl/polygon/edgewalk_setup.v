@@ -123,12 +123,12 @@ module edgewalk_setup (
   wire with_plane;
   reg [1:0] state;
   reg [4:0] at;          // operation
-  reg [4:0] left;        // its clocks after this one
-  reg first;             // its first clock, but for that of a triangle
+  reg [4:0] left;        // clocks of the operation after this one
+  reg first;             // first clock of an operation, except of a triangle's first
 
-  // Numbers that do not fit hold up what follows: two clocks, and one for two digits.
-  reg [3:0] pause;                          // clocks left of it
-  reg paused;                               // it is not over
+  // A number outside ±M pauses the sequence for two clocks, plus one for each pair of digits.
+  reg [3:0] pause;                          // clocks of the pause that are left
+  reg paused;                               // the operation is not over
   wire advance = !paused;
   assign tri_ready = state == IDLE;
   wire take = tri_valid && tri_ready;
@@ -172,12 +172,8 @@ module edgewalk_setup (
   end
 
   always @(posedge clk) begin
-    if (rst) begin
-      at <= SUBTRACT;
-    end else begin
-      if (leaves) at <= ((at == DOUBLE_DX) && no_side) ? SUM : at + 5'd1;
-      if (take) at <= SUBTRACT;
-    end
+    if (leaves) at <= ((at == DOUBLE_DX) && no_side) ? SUM : at + 5'd1;
+    if (take) at <= SUBTRACT;
   end
 
   // How long the next operation takes.
@@ -219,37 +215,28 @@ module edgewalk_setup (
   wire rests = !goes;
 
   always @(posedge clk) begin
-    if (rst) begin
-      at_next <= 5'd0;
-      ends_next <= 1'b0;
-    end else if (advance) begin
+    if (advance) begin
       at_next <= at;
       ends_next <= ends;
     end
   end
 
   always @(posedge clk) begin
-    if (rst) begin
-      at_stepped <= 5'd0;
-      ends_stepped <= 1'b0;
-      at_rest <= 5'd0;
-      ends_rest <= 1'b0;
-      at_whole <= 5'd0;
-      ends_whole <= 1'b0;
-      worked <= 1'b0;
-    end else begin
-      at_stepped <= at_formed;
-      ends_stepped <= ends_formed;
-      at_rest <= at_stepped;
-      ends_rest <= ends_stepped;
-      at_whole <= at_rest;
-      ends_whole <= ends_rest;
-      worked <= works;
-    end
+    at_stepped <= at_formed;
+    ends_stepped <= ends_formed;
+    at_rest <= at_stepped;
+    ends_rest <= ends_stepped;
+    at_whole <= at_rest;
+    ends_whole <= ends_rest;
+    pause <= advance ? 4'd13 : pause - 4'd1;
   end
 
   always @(posedge clk) begin
-    pause <= advance ? 4'd13 : pause - 4'd1;
+    if (rst) begin
+      worked <= 1'b0;
+    end else begin
+      worked <= works;
+    end
   end
 
   always @(posedge clk) begin
@@ -271,9 +258,9 @@ module edgewalk_setup (
   reg [21:0] p1_v;      // Q14.8, signed
   reg [21:0] p2_u;      // Q14.8, signed
   reg [21:0] p2_v;      // Q14.8, signed
-  reg [1:0] p0_vertex;  // whose values are those at this place
-  reg [1:0] p1_vertex;  // whose values are those at this place
-  reg [1:0] p2_vertex;  // whose values are those at this place
+  reg [1:0] p0_vertex;  // the vertex at this place: 0, 1 or 2
+  reg [1:0] p1_vertex;  // the vertex at this place: 0, 1 or 2
+  reg [1:0] p2_vertex;  // the vertex at this place: 0, 1 or 2
   wire both = y1_above_y0 && !y2_above_y1;
   wire both_2 = y2_above_y0 && y2_above_y1;
   wire both_3 = !y1_above_y0 && y2_above_y1;
@@ -295,7 +282,7 @@ module edgewalk_setup (
     end
   end
 
-  // The values at the vertices, as they came.
+  // Values at the vertices, as tri has them.
   reg [27:0] vertex0_z;  // UQ24.4 LSB
   reg [11:0] vertex0_r;  // UQ8.4 LSB
   reg [11:0] vertex0_g;  // UQ8.4 LSB
@@ -444,8 +431,8 @@ module edgewalk_setup (
   reg [27:0] differences;  // their bits, or those of complements
   reg [44:0] scaled;       // -M or -M - 1, signed
   reg scale_taken;         // the area is taken
-  reg scaling;             // it is compared
-  reg [3:0] scale_next;    // times that it is fourfold
+  reg scaling;             // the scaled modulus is compared with the differences
+  reg [3:0] scale_next;    // how many times the modulus is multiplied by 4
   wire [45:0] less_m = {{17'd0, differences}, 1'b1} + {scaled, 1'b1};  // and a carry out of the lowest bit
   wire [44:0] part_21 = less_m[45:1];
   wire fits = (|area) ? part_21[44] : 1'b1;
@@ -602,7 +589,7 @@ module edgewalk_setup (
     end
   end
 
-  // What all lanes do.
+  // Commands of all lanes.
   wire either_3 = (at == TAKE_DX)
                || (at == TAKE_DY)
                || (at == TAKE12)
@@ -693,7 +680,7 @@ module edgewalk_setup (
     step_next3 <= step3;
   end
 
-  // What the lanes are shown in the next clock.
+  // Inputs of the lanes in the next clock.
   reg [1:0] from_place;
   wire [1:0] from_vertex = (from_place == 2'd2) ? p2_vertex
                          : (from_place == 2'd1) ? p1_vertex
@@ -984,49 +971,49 @@ module edgewalk_setup (
 
   // Channel: z.
   always @(posedge clk) begin
-    if (take) prim_z_g <= 38'd0;
+    if (at_whole == SUBTRACT) prim_z_g <= 38'd0;
     if (ends_whole && (at_whole == DOUBLE_X)) prim_z_g <= lane0_value[37:0];
   end
 
   always @(posedge clk) begin
-    if (take) prim_z_d0 <= 38'd0;
+    if (at_whole == SUBTRACT) prim_z_d0 <= 38'd0;
     if (ends_whole && (at_whole == DOUBLE_LINE)) prim_z_d0 <= lane0_value[37:0];
   end
 
   always @(posedge clk) begin
-    if (take) prim_z_start <= 38'd0;
+    if (at_whole == SUBTRACT) prim_z_start <= 38'd0;
     if (at_whole == SUM_START) prim_z_start <= lane0_value[45:8];
   end
 
   // Channel: r.
   always @(posedge clk) begin
-    if (take) prim_r_g <= 22'd0;
+    if (at_whole == SUBTRACT) prim_r_g <= 22'd0;
     if (ends_whole && (at_whole == DOUBLE_X)) prim_r_g <= lane1_value[21:0];
   end
 
   always @(posedge clk) begin
-    if (take) prim_r_d0 <= 22'd0;
+    if (at_whole == SUBTRACT) prim_r_d0 <= 22'd0;
     if (ends_whole && (at_whole == DOUBLE_LINE)) prim_r_d0 <= lane1_value[21:0];
   end
 
   always @(posedge clk) begin
-    if (take) prim_r_start <= 22'd0;
+    if (at_whole == SUBTRACT) prim_r_start <= 22'd0;
     if (at_whole == SUM_START) prim_r_start <= lane1_value[29:8];
   end
 
   // Channel: g.
   always @(posedge clk) begin
-    if (take) prim_g_g <= 22'd0;
+    if (at_whole == SUBTRACT) prim_g_g <= 22'd0;
     if (ends_whole && (at_whole == DOUBLE_X)) prim_g_g <= lane2_value[21:0];
   end
 
   always @(posedge clk) begin
-    if (take) prim_g_d0 <= 22'd0;
+    if (at_whole == SUBTRACT) prim_g_d0 <= 22'd0;
     if (ends_whole && (at_whole == DOUBLE_LINE)) prim_g_d0 <= lane2_value[21:0];
   end
 
   always @(posedge clk) begin
-    if (take) prim_g_start <= 22'd0;
+    if (at_whole == SUBTRACT) prim_g_start <= 22'd0;
     if (at_whole == SUM_START) prim_g_start <= lane2_value[29:8];
   end
 
@@ -1060,17 +1047,17 @@ module edgewalk_setup (
   );
 
   always @(posedge clk) begin
-    if (take) prim_b_g <= 22'd0;
+    if (at_whole == SUBTRACT) prim_b_g <= 22'd0;
     if (ends_whole && (at_whole == DOUBLE_X)) prim_b_g <= lane3_value[21:0];
   end
 
   always @(posedge clk) begin
-    if (take) prim_b_d0 <= 22'd0;
+    if (at_whole == SUBTRACT) prim_b_d0 <= 22'd0;
     if (ends_whole && (at_whole == DOUBLE_LINE)) prim_b_d0 <= lane3_value[21:0];
   end
 
   always @(posedge clk) begin
-    if (take) prim_b_start <= 22'd0;
+    if (at_whole == SUBTRACT) prim_b_start <= 22'd0;
     if (at_whole == SUM_START) prim_b_start <= lane3_value[29:8];
   end
 

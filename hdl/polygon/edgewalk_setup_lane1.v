@@ -18,18 +18,18 @@ module edgewalk_setup_lane1 (
   input  wire        clk,
 
   input  wire  [2:0] read_at,        // slot of the addend, two clocks before its step
-  input  wire  [4:0] step,           // a clock before it is done
+  input  wire  [4:0] step,           // valid a clock before the step
   input  wire [22:0] number,         // to take in, signed; with its step
-  input  wire  [1:0] digits,         // of a number that does not fit, or its sign twice; with their step
+  input  wire  [1:0] digits,         // digits of a number outside ±M, or its sign twice; valid with their step
   input  wire        write,          // the result of the step goes to a slot
   input  wire  [2:0] write_at,
   input  wire [29:0] whole_in,       // whole number to add to a result, a clock before value
   input  wire        take_modulus,   // two clocks before the first step with it
   input  wire [44:0] modulus_in,     // -M, or -M - 1 if modulus_short; signed
   input  wire        modulus_short,
-  input  wire        give,           // an operation has ended: value is its result, a clock later
+  input  wire        give,           // an operation has ended; a clock later value is its result
   input  wire        nearest,        // value is rounded to nearest, halves up; a clock before it, with rest_out
-  input  wire        upwards,        // else: up; if not, it is cut
+  input  wire        upwards,        // 1: round up; 0: cut
   input  wire        negate,         // value is negated, once it is rounded
 
   output wire        unfit,          // the number that was taken in is not between -M and M
@@ -48,7 +48,7 @@ module edgewalk_setup_lane1 (
     end
   end
 
-  // The rests of the slots. Slot 0 is never written: it holds 0.
+  // Rests of the slots. Slot 0 is never written and holds 0.
   reg [43:0] rest;         // 1/M
   wire [43:0] rest_next;
   reg [43:0] rests [0:7];  // 1/M
@@ -91,14 +91,14 @@ module edgewalk_setup_lane1 (
     carry <= take_modulus_off && short;
   end
 
-  // The step: x and the addend, less M as often as it goes.
+  // The step: x plus the addend, less M as often as M fits.
   reg [4:0] now;                                   // the step done
   reg fourfold;
   reg twofold;
   reg keeps;
   reg takes;
-  reg [22:0] added;                                // number or digits taken in, 0 where there are none
-  reg below;                                       // what is taken in is below 0
+  reg [22:0] added;                                // number or digits taken in; 0 if there are none
+  reg below;                                       // the number taken in is below 0
   wire [45:0] choice = fourfold ? {2'd0, rest} << 2 : twofold ? {2'd0, rest} << 1 : 46'd0;
   wire [45:0] x = choice | ({2'd0, rest} & {46{keeps}}) | {{23{added[22]}}, added};
   wire [45:0] x_and_n0 = {x[44:0], 1'b1} + {n0, carry0};  // and a carry out of the lowest bit
@@ -181,7 +181,7 @@ module edgewalk_setup_lane1 (
     whole <= whole_next;
   end
 
-  // What is done is given out rounded, with a whole number added, or negated: -w - 1 is the complement of w.
+  // A result is rounded, has a whole number added, or is negated: -w - 1 is the complement of w.
   wire [45:0] past_half = {{rest, 1'b0}, 1'b1} + {modulus, short};  // and a carry out of the lowest bit
   reg value_carry;         // 1 to add, rounded up or negated
   reg value_negated;

@@ -8,8 +8,8 @@
 //
 // Timing: a line is taken while none is held, or the queue has room for the one that is; a span is seen two cycles after its line
 // was taken at the earliest. An empty line takes its turn like any other.
-// Rules: the span is cut on the side where it ends. What lies off the screen on the side where it starts is stepped over
-// by PIXEL, as the channels must be stepped there too.
+// Rules: the span is cut on the side where it ends. Columns off the screen on the side where it starts are
+// stepped over by PIXEL, as the channels must be stepped there too.
 
 `timescale 1ns / 1ps
 `default_nettype none
@@ -51,7 +51,7 @@ module edgewalk_span (
   wire right_of_screen = !line_cmin[14] && (line_cmin >= 15'd640);  // no column of the screen lies right of cmin
   wire left_of_screen = line_cmin[14] || (line_cmin == 15'd0);  // no column of the screen lies left of cmin
 
-  // Whether a column is left is asked of the edges themselves: no comparison waits for the cut.
+  // The edges' own columns say whether the span is empty, so no comparison waits for the clipped end.
   wire [15:0] difference = {line_cmaj[14], line_cmaj} - {line_cmin[14], line_cmin};
   wire ordered = difference[15];
   wire outside_right = (!line_cmaj[14] && (line_cmaj >= 15'd640)) || left_of_screen;
@@ -61,7 +61,7 @@ module edgewalk_span (
   wire crossed = line_major_right ? ordered || (line_cmaj == line_cmin) : !ordered;
   wire outside = line_major_right ? outside_left : outside_right;
 
-  // The line held; at its right side it is cut only here. What is loaded while no line comes means nothing.
+  // Line register. The right end is clipped here. Don't care while line_held is 0.
   wire queue_in_ready;
   assign line_ready = !line_held || queue_in_ready;
   wire take = line_valid && line_ready;
@@ -75,12 +75,12 @@ module edgewalk_span (
   reg held_fence;                             // fragments in flight may lie on the same pixels
   reg [14:0] held_first;                      // signed, first column
   reg [14:0] held_end;                        // signed, the column behind the last, or one beyond the screen
-  reg held_beyond;                            // it ends with the screen
+  reg held_beyond;                            // 1: the span ends with the screen
   wire [14:0] end_cut = held_beyond ? 15'd640 : held_end;
-  reg held_crossed;                           // no column lies between its edges
-  reg held_outside;                           // they end beside the screen
-  wire empty = held_crossed || held_outside;  // no column of it is on the screen
-  reg held_leftward;                          // drawn from its last column
+  reg held_crossed;                           // 1: no column lies between the line's edges
+  reg held_outside;                           // 1: both ends lie beside the screen
+  wire empty = held_crossed || held_outside;  // 1: the line has no column on the screen
+  reg held_leftward;                          // 1: the span is drawn from its last column to its first
 
   always @(posedge clk) begin
     if (rst) begin
@@ -139,7 +139,7 @@ module edgewalk_span (
   wire queue_out_fence;
   wire queue_out_valid;
 
-  // While a triangle's first span is queued, or may come of the line held, EDGE must keep its increments.
+  // While a triangle's first span is queued, or the held line may become it, EDGE must keep its increments.
   wire queue_any_fresh;
 
   edgewalk_span_fifo queue (

@@ -5,7 +5,7 @@ use crate::progress::bar;
 use crate::triangles::TriangleFile;
 use anyhow::{Context, Result};
 use edgewalk_host::draw::{Drawn, draw};
-use edgewalk_host::port::guard_band;
+use edgewalk_host::vertices::guard_band;
 use edgewalk_machine::Plan;
 use edgewalk_model::Waits;
 use edgewalk_scene::{Host, fits};

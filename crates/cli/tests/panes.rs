@@ -339,7 +339,7 @@ fn what_a_map_cannot_hold_is_said() {
         (
             PANES.to_owned(),
             with(&["formats.color_bits=12", "shadow.depth_bits=21"]),
-            &["shadow.depth_bits = 21", "33, 32 is the most", "try shadow.depth_bits = 20"],
+            &["shadow.depth_bits = 21", "33 bits", "permitted: at most 32", "try shadow.depth_bits = 20"],
         ),
         (PANES.replacen("0.5\n", "1.5\n", 1), with(&[]), &["a.tri:4: L kt: `1.5`", "0 to 1"]),
         (PANES.replacen("0.5\n", "-0.1\n", 1), with(&[]), &["a.tri:4: L kt: `-0.1`", "0 to 1"]),

@@ -24,6 +24,8 @@ const DRAWN: &[(&str, &[&str])] = &[
     ("quad.tri", &[]),
     ("depth.tri", &[]),
     ("worked-example.tri", &[]),
+    ("tour.tri", &[]),
+    ("bypass.tri", &[]),
 ];
 
 #[test]

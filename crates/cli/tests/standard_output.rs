@@ -9,7 +9,7 @@ use std::path::Path;
 use std::process::Stdio;
 
 /// A quick run of each command, as text; those with a report also come with --json.
-pub const COMMANDS: [&[&str]; 24] = [
+pub const COMMANDS: [&[&str]; 25] = [
     &["demo", "d.tri", "--out", "demo"],
     &["render", "d.tri", "--out", "render"],
     &["render", "sphere", "--engine", "golden", "--out", "shaded"],
@@ -21,6 +21,16 @@ pub const COMMANDS: [&[&str]; 24] = [
     &["emit", "--out", "emit"],
     &["vectors", "--suite", "hazards", "--unit", "depth", "--out", "vectors"],
     &["verify", "d.tri", "--triangles", "1", "--no-simulators", "--set", "screen.guard_bits=7"],
+    &[
+        "energy",
+        "d.tri",
+        "--cycles",
+        "100",
+        "--set",
+        "setup.lanes=1",
+        "--cache",
+        concat!(env!("CARGO_TARGET_TMPDIR"), "/synth"),
+    ],
     &["mutants", "--unit", "span", "--bench", "true", "--sample", "1", "--out", "mutants"],
     &["trace", "d.tri", "--out", "t.vcd", "--cycles", "10"],
     &["bench", "d.tri", "--engine", "fast", "--repeat", "1"],

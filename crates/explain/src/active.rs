@@ -14,7 +14,7 @@ use std::fmt::Write as _;
 pub(crate) struct InPoly {
     /// Place of the polygon among the frame's primitives.
     id: usize,
-    /// Its active edges in the order of their columns.
+    /// The line's active edges in the order of their columns.
     active: Vec<Active>,
     /// First column, and first no longer inside, of the pair around the pixel.
     pair: Option<[i32; 2]>,

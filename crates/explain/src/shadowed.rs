@@ -4,7 +4,7 @@ use super::additions::walk;
 use super::state_of;
 use anyhow::Result;
 use edgewalk_host::light;
-use edgewalk_host::port::port_triangle;
+use edgewalk_host::vertices::port_triangle;
 use edgewalk_machine::{EdgeKind, Fill, LIGHT_SPACE, Plan};
 use edgewalk_model::project::quotients;
 use edgewalk_scene::Frame;

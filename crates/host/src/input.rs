@@ -3,7 +3,8 @@
 use crate::extra;
 use crate::needs::{self, Need};
 use crate::polygon::{is_for_poly, of_pieces, pieces};
-use crate::port::{guard_band, sent};
+use crate::port::sent;
+use crate::vertices::guard_band;
 use anyhow::{Context as _, Result, anyhow};
 use edgewalk_golden::Shading;
 use edgewalk_machine::Plan;

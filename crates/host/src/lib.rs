@@ -25,6 +25,7 @@ pub mod raster;
 pub mod light;
 pub mod shade;
 pub mod needs;
+pub mod vertices;
 pub mod polygon;
 pub mod port;
 pub mod input;

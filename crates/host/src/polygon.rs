@@ -5,7 +5,7 @@
 //!                                               └─ none does ─> triangles, where its edges do not cross
 //! ```
 
-use crate::port::{guard_band, port_triangle};
+use crate::vertices::{guard_band, port_triangle};
 use anyhow::{Context as _, Result, anyhow};
 use edgewalk_machine::key::Domain;
 use edgewalk_machine::keys::KEYS;

@@ -5,12 +5,12 @@ use crate::needs;
 use crate::polygon::{self, Piece};
 use crate::raster::{Cycles, LightPass, Raster};
 use crate::shade::{Feed, feed, shading_for};
-use anyhow::{Context as _, Result, anyhow};
+use crate::vertices::{guard_band, port_triangle, port_vertices};
+use anyhow::{Result, anyhow};
 use edgewalk_machine::{Plan, PortVertex};
 use edgewalk_model::{DrawState, Pass, Shading};
 use edgewalk_scene::{
-    Blending, CrossingEdges, DepthFunc, Frame, Host, Line, Polygon, ShadeMode, State, Triangle, Triangulated,
-    fits,
+    Blending, CrossingEdges, DepthFunc, Frame, Host, Line, Polygon, State, Triangle, Triangulated, fits,
 };
 use std::borrow::Cow;
 
@@ -144,12 +144,6 @@ pub fn sent<'a>(frame: &'a Frame, machine: &Plan) -> Result<(Triangulated<'a>, H
         of.resize(pieces.len(), id);
     }
     Ok((Triangulated { triangles: Cow::Owned(pieces), ids: of }, host))
-}
-
-/// Half a side of the machine's guard band, pixels.
-#[must_use]
-pub fn guard_band(machine: &Plan) -> f64 {
-    f64::from((1u32 << machine.guard_bits) - 1)
 }
 
 /// Snaps a frame to the port, polygons as triangles, or says what of it the machine cannot take.
@@ -286,56 +280,4 @@ pub fn draw_state(frame: &Frame, state: &State, machine: &Plan) -> Result<DrawSt
         ambient: frame.shadow(state.light).map_or(0, |shadow| light::ambient(shadow, machine)),
         clear: frame.clear.map(|v| (v * max).round_ties_even() as u64),
     })
-}
-
-/// Snaps triangle number `index`, drawn by these rules, to the port, or says that the machine cannot take it.
-pub fn port_triangle(
-    index: usize,
-    triangle: &Triangle,
-    frame: &Frame,
-    state: &State,
-    machine: &Plan,
-) -> Result<[PortVertex; 3]> {
-    let name = |corner: Option<usize>| match corner {
-        Some(corner) => format!("triangle {index}, vertex {corner}"),
-        None => format!("triangle {index}"),
-    };
-    Ok(machine.windowed(port_vertices(index, triangle, frame, state, machine, &name)?))
-}
-
-/// Snaps the vertices of the primitive at place `index` to the port; `name`: what errors call it, or one of its corners.
-fn port_vertices(
-    index: usize,
-    triangle: &Triangle,
-    frame: &Frame,
-    state: &State,
-    machine: &Plan,
-    name: &dyn Fn(Option<usize>) -> String,
-) -> Result<[PortVertex; 3]> {
-    let (mixes, mode) = (state.blend == Blending::Mix, frame.mode);
-    let mut port = [PortVertex::default(); 3];
-    let light =
-        light::values(frame.shadow(state.light), index, &triangle.0, machine).with_context(|| name(None))?;
-    for (corner, (slot, v)) in port.iter_mut().zip(&triangle.0).enumerate() {
-        let v = if mode == ShadeMode::Flat { v.colored_as(&triangle.0[0]) } else { *v };
-        let named = || name(Some(corner));
-        let mut values = vec![v.z, v.r, v.g, v.b];
-        values.extend_from_slice(&v.extra[..machine.extra as usize]);
-        if machine.shadow.is_there() {
-            values.extend_from_slice(&light[corner]);
-        }
-        if machine.blend.is_there() || machine.has_triangle_kt() {
-            values.push(if mixes { v.kt } else { 0.0 });
-        }
-        if mixes && machine.has_triangle_kt() && mode == ShadeMode::Gouraud && v.kt != triangle.0[0].kt {
-            return Err(anyhow!(
-                "kt = {} after {}: blend.kind = constant, as dither.screen_door = yes, has one for a triangle; add --set blend.kind=interpolated, or draw with mode flat",
-                v.kt,
-                triangle.0[0].kt
-            ))
-            .with_context(named);
-        }
-        *slot = machine.port_vertex(v.x, v.y, &values).with_context(named)?;
-    }
-    Ok(port)
 }

@@ -33,7 +33,8 @@ pub struct SetupReport {
     all_clocks: u64,
     fates: [u64; FATES.len()],
     sizes: [u64; SIZES.len()],
-    longest: u32,
+    /// What no triangle exceeds; none with POLY, where a polygon is any number of tokens.
+    longest: Option<u32>,
 }
 
 impl SetupReport {
@@ -86,7 +87,7 @@ impl SetupReport {
             all_clocks: 0,
             fates: [0; FATES.len()],
             sizes: [0; SIZES.len()],
-            longest: longest_setup(machine).all(),
+            longest: (!machine.polygon.is_there()).then(|| longest_setup(machine).all()),
         }
     }
 
@@ -120,7 +121,7 @@ impl SetupReport {
         let (mean, most_do, most) = self.spread();
         let mut t = format!(
             "setup clocks of a triangle that is not culled: mean {mean:.1}, 95 % at most {most_do}, most {most}, bound {}\n",
-            self.longest
+            self.longest.map_or_else(|| "none".to_owned(), |clocks| clocks.to_string())
         );
         let list = |names: &mut dyn Iterator<Item = &str>, counts: &[u64]| {
             names.zip(counts).map(|(name, count)| format!("{name} {count}")).collect::<Vec<_>>().join(", ")

@@ -33,7 +33,7 @@ fn what_is_no_case_is_refused_with_the_key() {
         ("colour = 1", "colour: no case has such a key"),
         (
             "unit = \"pixl\"",
-            "unit: unknown unit pixl; permitted: machine, setup, edge, span, term, pixel, texel, bump, normal, lamp, shade, project, shadow, dither, depth, blend; nearest: pixel",
+            "unit: unknown unit pixl; permitted: machine, setup, edge, poly, span, term, pixel, texel, bump, normal, lamp, shade, project, shadow, dither, depth, blend; nearest: pixel",
         ),
         ("depth_func = \"less\"", "depth_func: a number in range is wanted"),
         ("tokens = [\"zz\"]", "tokens: \"zz\" is no token of tri: 324 bits in hex"),

@@ -86,13 +86,13 @@ impl Role {
         }
     }
 
-    /// It is a line.
+    /// Whether the primitive is a line.
     #[must_use]
     pub fn is_line(self) -> bool {
         matches!(self, Role::Line { .. })
     }
 
-    /// It is a line with x and y exchanged.
+    /// Whether the primitive is a line with x and y exchanged.
     #[must_use]
     pub fn is_flat(self) -> bool {
         self == Role::Line { flat: true }
@@ -110,7 +110,7 @@ impl Role {
 pub struct Window {
     /// Column of the pixel.
     pub x0: u32,
-    /// Its line, and the first that is drawn.
+    /// Line at which values start, the first that is drawn.
     pub y0: u32,
     /// The line behind the last; what lies beyond the screen counts as its height.
     pub y1: u32,

@@ -235,7 +235,7 @@ mod tests {
             ),
             (
                 "preset = \"defalt\"\n",
-                "line 1: unknown preset defalt; permitted: default, textbook, small, ecp5, hx8k, up5k; nearest: default",
+                "line 1: unknown preset defalt; permitted: default, textbook, polygon, small, ecp5, hx8k, up5k; nearest: default",
             ),
             (
                 "[formats]\nz_vertex = 16\n",

@@ -292,11 +292,7 @@ fn sequenced_setup_takes_a_triangle_word_by_word() {
 
 #[test]
 fn sequenced_setup_refuses_what_its_program_lacks() {
-    let cases = [
-        ("edge.fill", "textbook", "exact", "0"),
-        ("edge.kind", "slope", "exact", "0"),
-        ("polygon.lines", "yes", "no", "8"),
-    ];
+    let cases = [("edge.fill", "textbook", "exact", "0"), ("edge.kind", "slope", "exact", "0")];
     for (key, value, permitted, subpixels) in cases {
         let keys = [("setup.kind", "sequenced"), ("screen.subpixel_bits", subpixels), (key, value)];
         let error = machine(&keys).plan().expect_err(key).to_string();

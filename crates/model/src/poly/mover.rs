@@ -12,7 +12,7 @@ pub(super) struct Mover<const C: usize> {
     masks: Words<C>,
     /// The span to be given, once the values are there.
     has: bool,
-    /// Its values are V.
+    /// The line offered. The values in it are V.
     line: Line<C>,
     /// X and Y: where V is.
     x: i32,

@@ -23,6 +23,7 @@ impl<const C: usize> Poly<C> {
         let (w, edges) = (plan.widths(), plan.polygon.edges.ilog2() + 1);
         view.triangle(self.walking().then_some(self.mover.way().0.source.id));
         let run = view.flag("run", "the edges of a polygon are walked", self.pass.runs());
+        view.wire(|| "run".to_owned());
         view.live(Some(run));
         let y = view.number("y", "line whose pairs are spans", w.line, self.pass.lines()[0]);
         let [todo, next] = self.pass.waiting();
@@ -43,7 +44,9 @@ impl<const C: usize> Poly<C> {
         let edges = plan.polygon.edges.ilog2() + 1;
         let (bank, loaded, putting) = self.load.loading();
         view.number("ne", "edges of the polygon that is loaded", edges, loaded);
+        view.wire(|| "edges".to_owned());
         view.flag("over", "it has more edges than the table", self.load.over());
+        view.wire(|| "over".to_owned());
         let puts = view.flag("putting", "an edge goes to its place in the order list", putting.is_some());
         view.live(Some(puts));
         view.number(

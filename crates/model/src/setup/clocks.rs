@@ -7,26 +7,10 @@ mod polygon;
 use super::edges::{Parts, Screen};
 use super::sequenced::ProgramClocks;
 use super::sort::{Corner, Sorted};
+use super::spent::SetupClocks;
 use crate::tokens::{MAX_CHANNELS, Prim};
 use edgewalk_machine::{EdgeKind, Fill, Plan};
 use std::array::from_fn;
-
-/// Clocks of a triangle in SETUP.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct SetupClocks {
-    /// S1: edges, area, cull; of a sequenced SETUP S, all of it.
-    pub phase1: u32,
-    /// S2: the channels; 0 of a triangle that is culled, and of a sequenced SETUP.
-    pub phase2: u32,
-}
-
-impl SetupClocks {
-    /// Of both phases.
-    #[must_use]
-    pub fn all(self) -> u32 {
-        self.phase1 + self.phase2
-    }
-}
 
 /// S1 of a triangle that is culled by lines or columns.
 const SEEN_AT_ONCE: u32 = 2;

@@ -21,11 +21,13 @@ mod channels;
 mod polygon;
 pub(crate) mod clocks;
 mod sequenced;
+mod spent;
 mod schedule;
 pub mod sequencer;
 mod view;
 
-pub use clocks::{SetupClocks, longest_setup};
+pub use clocks::longest_setup;
+pub use spent::SetupClocks;
 
 use crate::Events;
 use crate::ports::{Pins, Ported, Shown};

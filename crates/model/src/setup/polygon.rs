@@ -2,9 +2,10 @@
 //!
 //! Rules: `docs/machine.md`, section 19, "Setup".
 
-use super::clocks::{SetupClocks, Timing};
+use super::clocks::Timing;
 use super::edges::{self, Screen};
 use super::sort::Sorted;
+use super::spent::SetupClocks;
 use super::{Culled, channels};
 use crate::Events;
 use crate::tokens::Prim;

@@ -6,9 +6,9 @@
 //!
 //! Rules: `docs/machine.md`, section 2, "The sequencer".
 
-use super::SetupClocks;
 use super::edges::{Parts, Screen};
 use super::sort::{Corner, Sorted};
+use super::spent::SetupClocks;
 use crate::tokens::Prim;
 use edgewalk_machine::sequencer::word::{Act, Control, Drop, Factor, Word};
 use edgewalk_machine::sequencer::{Program, edges_are_beside, rounds};

@@ -10,9 +10,9 @@ pub(super) struct Inserts<'a, 'm> {
     tables: &'a Tables<'m>,
     /// Words in the list.
     pub count: Reg<'m>,
-    /// Its first word.
+    /// First word of the list.
     pub head: Register<'m>,
-    /// Its last word.
+    /// Last word of the list.
     top: Register<'m>,
     /// The edge in D.
     pub edge: Register<'m>,
@@ -20,7 +20,7 @@ pub(super) struct Inserts<'a, 'm> {
     pub valid: Reg<'m>,
     /// Words move up for it.
     moving: Reg<'m>,
-    /// They begin to in this clock.
+    /// Words begin to move up in this clock.
     moves: Signal<'m>,
 }
 

@@ -27,9 +27,9 @@ pub(super) struct Load<'m> {
     pub bank: Signal<'m>,
     /// Edges in it.
     pub edges: Signal<'m>,
-    /// It is walked from now on.
+    /// The polygon is walked from now on.
     pub begins: Signal<'m>,
-    /// It has too many edges.
+    /// The polygon has too many edges.
     pub refused: Signal<'m>,
     /// A word for `rests`: whether, where, and R - f with the lines left.
     pub stores: Signal<'m>,
@@ -133,11 +133,11 @@ struct Order<'a, 'm> {
 
 /// What becomes of an edge.
 struct Ordered<'m> {
-    /// It goes behind the others.
+    /// The edge goes behind the others.
     appends: Signal<'m>,
-    /// It goes before some, which first move up.
+    /// The edge goes before some others, which first move up.
     inserts: Signal<'m>,
-    /// They have moved, it is put there.
+    /// The others have moved, and the edge is put in its place.
     ended: Signal<'m>,
 }
 

@@ -24,7 +24,7 @@ pub(super) struct Links<'a, 'm> {
 pub(super) struct Mover<'m> {
     /// The pair is taken or dropped.
     pub pair_leaves: Signal<'m>,
-    /// It holds a span.
+    /// MOVER holds a span.
     pub has_span: Signal<'m>,
     pub line_valid: Signal<'m>,
     /// For PIXEL.

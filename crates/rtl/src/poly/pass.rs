@@ -22,7 +22,7 @@ pub(super) struct Links<'a, 'm> {
 pub(super) struct Pass<'m> {
     /// Lines are passed.
     pub run: Signal<'m>,
-    /// It writes to `rests`.
+    /// PASS writes to `rests`.
     pub writes: Signal<'m>,
     pub pair: Pair<'m>,
 }
@@ -35,7 +35,7 @@ pub(super) struct Pair<'m> {
     pub line: Signal<'m>,
     pub left: Signal<'m>,
     pub right: Signal<'m>,
-    /// It is the pixel of a line, twice.
+    /// The pair is the pixel of a line, twice.
     pub thin: Option<Signal<'m>>,
 }
 
@@ -179,9 +179,9 @@ impl<'m> Line<'m> {
 struct Entry<'m> {
     /// There is one.
     some: Signal<'m>,
-    /// It begins on the next line.
+    /// The edge begins on the next line.
     enters: Signal<'m>,
-    /// Its number.
+    /// Number of the edge.
     index: Signal<'m>,
 }
 

@@ -40,7 +40,7 @@ impl<'m> Word<'m> {
         self.key.module().cat(&[self.key, self.index])
     }
 
-    /// This word, or another one.
+    /// One of two words.
     pub fn choose(is: Signal<'m>, yes: Word<'m>, no: Word<'m>) -> Word<'m> {
         Word { key: is.mux(yes.key, no.key), index: is.mux(yes.index, no.index) }
     }

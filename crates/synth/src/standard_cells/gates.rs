@@ -53,11 +53,11 @@ pub struct Placeless {
 /// Area of a unit.
 #[derive(Clone, Debug, Serialize)]
 pub struct UnitArea {
-    /// Its name.
+    /// Name of the unit.
     pub unit: String,
     /// Area of its cells, um2.
     pub area_um2: f64,
-    /// Its flip-flops.
+    /// Flip-flops of the unit.
     pub flip_flops: u64,
 }
 

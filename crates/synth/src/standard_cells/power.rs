@@ -34,9 +34,9 @@ pub struct Power {
 /// Power of a unit.
 #[derive(Clone, Debug, Serialize)]
 pub struct UnitPower {
-    /// Its name.
+    /// Name of the unit.
     pub unit: String,
-    /// Its watts.
+    /// Watts of the unit.
     pub watts: f64,
 }
 

@@ -29,7 +29,7 @@ pub(in crate::setup) struct PolygonFeedback<'m> {
     pub sides: Wire<'m>,
     /// Edges without values.
     pub edges: Wire<'m>,
-    /// It is not culled.
+    /// The token has a plane that is not culled.
     pub plane: Wire<'m>,
 }
 

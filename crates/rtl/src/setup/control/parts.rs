@@ -14,9 +14,9 @@ pub(super) struct Parts<'m> {
     pub no_side: Signal<'m>,
     /// The second clock of a token.
     pub second: Signal<'m>,
-    /// It has no plane, or none with an area.
+    /// The token has no plane, or none with an area.
     pub no_values: Signal<'m>,
-    /// It is culled if it has no area.
+    /// The token is culled if it has no area.
     pub culled: Signal<'m>,
     /// No round of edges follows.
     pub last_round: Signal<'m>,
