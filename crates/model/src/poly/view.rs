@@ -67,7 +67,7 @@ impl<const C: usize> Poly<C> {
             let place = first + row;
             let order =
                 bank.order.get(place).copied().filter(|_| place < loaded as usize).unwrap_or_default();
-            view.row(&row.to_string());
+            view.row(&format!("loaded {row}"));
             view.cell("place in the list", || Shape::whole(edges), place as u64);
             view.cell("first line of the edge", || Shape::whole(w.line), order.line.into());
             view.cell("place in the table", || Shape::whole(edges), order.index.into());
@@ -78,7 +78,7 @@ impl<const C: usize> Poly<C> {
         for row in 0..ROWS {
             let order = walked.order.get(next as usize + row).copied().filter(|_| (row as u32) < todo);
             let order = order.unwrap_or_default();
-            view.row(&row.to_string());
+            view.row(&format!("next {row}"));
             view.cell("first line of the edge", || Shape::whole(w.line), order.line.into());
             view.cell("place in the table", || Shape::whole(edges), order.index.into());
         }
@@ -104,7 +104,7 @@ impl<const C: usize> Poly<C> {
         stage("C, the word that is worked at", "C", c.map(|c| c.index), record, view);
         let entering = c.is_some_and(|c| c.entering);
         view.flag("entering", "the edge in C begins on the next line", entering);
-        let list = |title: &str, first: Option<Word>, words: &[Word], view: &mut View| {
+        let list = |name: &str, title: &str, first: Option<Word>, words: &[Word], view: &mut View| {
             view.table(title, &["C", "edge"], false);
             for row in 0..ROWS {
                 let word = match (first, row) {
@@ -113,7 +113,7 @@ impl<const C: usize> Poly<C> {
                     (None, row) => words.get(row).copied(),
                 };
                 let word = word.unwrap_or_default();
-                view.row(&row.to_string());
+                view.row(&format!("{name} {row}"));
                 let column = plan.widths().column;
                 view.cell(
                     "column on the list's line",
@@ -124,8 +124,9 @@ impl<const C: usize> Poly<C> {
             }
         };
         let [old, new] = self.pass.words();
-        list("active edges of line y, those that come next", b, old, view);
+        list("old", "active edges of line y, those that come next", b, old, view);
         list(
+            "new",
             "active edges of the next line, the last of them",
             None,
             &new[new.len().saturating_sub(ROWS)..],
