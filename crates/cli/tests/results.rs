@@ -4,12 +4,9 @@
 //! the rows whose figures are all printed again. It fails with the figures that are not: those the row must get by hand.
 #![allow(clippy::unwrap_used)] // a test that unwraps nothing reports it
 
-use std::path::{Path, PathBuf};
+use crate::support::root;
+use std::path::Path;
 use std::process::Command;
-
-fn root() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
-}
 
 /// The numbers of a text, `342,727` as `342727`. What stands in brackets or is part of a word is none: `iCE40`, `(bound 4)`.
 fn numbers(text: &str) -> Vec<String> {

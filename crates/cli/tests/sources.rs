@@ -1,13 +1,10 @@
 //! `docs/sources.md` resolves every label by which docs, code and gallery cite a source.
 
+use crate::support::root;
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 const LAST_SYSTEM: u32 = 17;
-
-fn root() -> PathBuf {
-    PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../..")
-}
 
 fn texts(folder: &Path, found: &mut Vec<(PathBuf, String)>) {
     for entry in std::fs::read_dir(folder).expect("a folder") {

@@ -11,14 +11,9 @@ mod figures;
 mod screen;
 mod wave;
 
-use crate::support::edgewalk;
 use crate::support::recording::Recording;
+use crate::support::{edgewalk, root};
 use figures::{FIGURES, Start};
-use std::path::{Path, PathBuf};
-
-fn root() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
-}
 
 /// The recording that a command of the page writes.
 fn recorded(command: &str) -> Recording {

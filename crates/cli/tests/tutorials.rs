@@ -5,12 +5,9 @@
 //! word is a file of that name.
 #![allow(clippy::unwrap_used)] // a test that unwraps nothing reports it
 
-use std::path::{Path, PathBuf};
+use crate::support::root;
+use std::path::Path;
 use std::process::Command;
-
-fn root() -> PathBuf {
-    PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../..")
-}
 
 /// The fenced blocks of a page: the words behind the fence, and the text.
 fn blocks(page: &str) -> Vec<(Vec<String>, String)> {
