@@ -25,18 +25,18 @@ module edgewalk_edge (
   input  wire  [9:0] prim_n1,           // lines of the upper part
   input  wire  [9:0] prim_n2,           // lines of the lower part
   input  wire        prim_major_right,  // the major edge is the right one
-  input  wire [14:0] prim_major_c,      // signed, first column right of the edge
-  input  wire [21:0] prim_major_r,      // distance from the edge to that column, 1/M column
+  input  wire [14:0] prim_major_c,      // signed, first column on or right of the edge
+  input  wire [21:0] prim_major_dist,   // distance from the edge to that column, 1/M column
   input  wire [14:0] prim_major_q,      // signed, whole columns a line, step of c
   input  wire [21:0] prim_major_f,      // 1/M column a line
   input  wire [21:0] prim_major_m,      // modulus of r and f: the edge's height, 1/P line
-  input  wire [14:0] prim_minor1_c,     // signed, first column right of the edge
-  input  wire [21:0] prim_minor1_r,     // distance from the edge to that column, 1/M column
+  input  wire [14:0] prim_minor1_c,     // signed, first column on or right of the edge
+  input  wire [21:0] prim_minor1_dist,  // distance from the edge to that column, 1/M column
   input  wire [14:0] prim_minor1_q,     // signed, whole columns a line, step of c
   input  wire [21:0] prim_minor1_f,     // 1/M column a line
   input  wire [21:0] prim_minor1_m,     // modulus of r and f: the edge's height, 1/P line
-  input  wire [14:0] prim_minor2_c,     // signed, first column right of the edge
-  input  wire [21:0] prim_minor2_r,     // distance from the edge to that column, 1/M column
+  input  wire [14:0] prim_minor2_c,     // signed, first column on or right of the edge
+  input  wire [21:0] prim_minor2_dist,  // distance from the edge to that column, 1/M column
   input  wire [14:0] prim_minor2_q,     // signed, whole columns a line, step of c
   input  wire [21:0] prim_minor2_f,     // 1/M column a line
   input  wire [21:0] prim_minor2_m,     // modulus of r and f: the edge's height, 1/P line
@@ -62,15 +62,15 @@ module edgewalk_edge (
   output wire        prim_ready,
   output wire        line_valid,
   output reg   [8:0] line_y,            // line
-  output wire [14:0] line_cmaj,         // signed, first column right of the major edge
-  output wire [14:0] line_cmin,         // signed, first column right of the minor edge
+  output wire [14:0] line_cmaj,         // signed, first column on or right of the major edge
+  output wire [14:0] line_cmin,         // signed, first column on or right of the minor edge
   output reg         line_major_right,  // the major edge is the right one
   output reg  [37:0] line_z,            // UQ24.14 LSB, modular
   output reg  [21:0] line_r,            // UQ8.14 LSB, modular
   output reg  [21:0] line_g,            // UQ8.14 LSB, modular
   output reg  [21:0] line_b,            // UQ8.14 LSB, modular
   output reg         line_fresh,        // first line of the triangle
-  output wire        line_fence,        // fragments in flight may lie on the same pixels
+  output wire        line_fence,        // older fragments of the same pixel may be in flight
   output reg  [37:0] inc_z,             // UQ24.14 LSB, modular
   output reg  [21:0] inc_r,             // UQ8.14 LSB, modular
   output reg  [21:0] inc_g,             // UQ8.14 LSB, modular
@@ -84,7 +84,7 @@ module edgewalk_edge (
   wire load = prim_valid && prim_ready;
   wire step = running && line_ready;
 
-  // Between triangles the registers load the next triangle in every clock until PIXEL has taken the increments, so they need no enable.
+  // While EDGE is idle the registers load the offered triangle in every clock. So their enable does not wait for fresh_queued.
   reg idle;                           // not running; selects what the registers load
   wire at_end = step && last;
   wire offered = idle && prim_valid;  // the next triangle is there
@@ -153,14 +153,14 @@ module edgewalk_edge (
   end
 
   // The major edge.
-  reg [14:0] major_c;     // signed, first column right of the edge
+  reg [14:0] major_c;     // signed, first column on or right of the edge
   reg [14:0] major_q;     // signed, whole columns a line, step of c
   reg [21:0] major_f;     // 1/M column a line
   reg [21:0] major_m;     // modulus of r and f: the edge's height, 1/P line
   reg [22:0] major_rest;  // R - f, signed: below 0 the step carries
   wire [22:0] major_less = major_rest - {1'b0, major_f};
   wire [22:0] major_back = major_rest[22] ? {1'b0, major_m} : 23'd0;
-  wire [22:0] major_next = idle ? {1'b0, prim_major_r} - {1'b0, prim_major_f}
+  wire [22:0] major_next = idle ? {1'b0, prim_major_dist} - {1'b0, prim_major_f}
                          : major_less + major_back;
   reg carry;              // the major edge carries in its next step
 
@@ -188,13 +188,13 @@ module edgewalk_edge (
   end
 
   // The minor edge, and the one that takes its place at the knee.
-  reg [14:0] second_c;     // signed, first column right of the edge
+  reg [14:0] second_c;     // signed, first column on or right of the edge
   reg [14:0] second_q;     // signed, whole columns a line, step of c
   reg [21:0] second_f;     // 1/M column a line
   reg [21:0] second_m;     // modulus of r and f: the edge's height, 1/P line
   reg [22:0] second_rest;  // R - f, signed: below 0 the step carries
-  wire [22:0] minor2_rest = {1'b0, prim_minor2_r} - {1'b0, prim_minor2_f};
-  reg [14:0] minor_c;      // signed, first column right of the edge
+  wire [22:0] minor2_rest = {1'b0, prim_minor2_dist} - {1'b0, prim_minor2_f};
+  reg [14:0] minor_c;      // signed, first column on or right of the edge
   reg [14:0] minor_q;      // signed, whole columns a line, step of c
   reg [21:0] minor_f;      // 1/M column a line
   reg [21:0] minor_m;      // modulus of r and f: the edge's height, 1/P line
@@ -202,7 +202,7 @@ module edgewalk_edge (
   wire [22:0] minor_less = minor_rest - {1'b0, minor_f};
   wire [22:0] minor_back = minor_rest[22] ? {1'b0, minor_m} : 23'd0;
   wire has_upper = |prim_n1;
-  wire [22:0] minor1_rest = {1'b0, prim_minor1_r} - {1'b0, prim_minor1_f};
+  wire [22:0] minor1_rest = {1'b0, prim_minor1_dist} - {1'b0, prim_minor1_f};
   wire exchanged = exchanges && moves;
 
   always @(posedge clk) begin

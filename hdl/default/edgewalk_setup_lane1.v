@@ -7,8 +7,8 @@
 //                                  x = rest * 1 2 4 ─> + ─> the last sum not below 0 ─> [rest]
 //                                                           how often M was taken off ─> [whole], a clock later
 //
-// Timing: a step is named two clocks before it is done: in the first its addend is read, in the second n0 n1 n2 are formed.
-// Rules: a doubling step adds a = -M three times instead, so that up to 3 M can be taken off. To a number below 0 that is taken in
+// Timing: a step takes three clocks. Its addend is read, then n0 n1 n2 are formed, then it is done.
+// Rules: in a doubling step n0 n1 n2 are -M, -2M and -3M, so that up to 3 M can be taken off. To a number below 0 that is taken in
 // M is added, and -1 is its whole part. So it is with a pair that is subtracted: M - a is added, and the complement of its whole part.
 
 `timescale 1ns / 1ps

@@ -28,18 +28,18 @@ module edgewalk_setup (
   output reg   [9:0] prim_n1,           // lines of the upper part
   output reg   [9:0] prim_n2,           // lines of the lower part
   output reg         prim_major_right,  // the major edge is the right one
-  output reg  [14:0] prim_major_c,      // signed, first column right of the edge
-  output reg  [21:0] prim_major_r,      // distance from the edge to that column, 1/M column
+  output reg  [14:0] prim_major_c,      // signed, first column on or right of the edge
+  output reg  [21:0] prim_major_dist,   // distance from the edge to that column, 1/M column
   output reg  [14:0] prim_major_q,      // signed, whole columns a line, step of c
   output reg  [21:0] prim_major_f,      // 1/M column a line
   output reg  [21:0] prim_major_m,      // modulus of r and f: the edge's height, 1/P line
-  output reg  [14:0] prim_minor1_c,     // signed, first column right of the edge
-  output reg  [21:0] prim_minor1_r,     // distance from the edge to that column, 1/M column
+  output reg  [14:0] prim_minor1_c,     // signed, first column on or right of the edge
+  output reg  [21:0] prim_minor1_dist,  // distance from the edge to that column, 1/M column
   output reg  [14:0] prim_minor1_q,     // signed, whole columns a line, step of c
   output reg  [21:0] prim_minor1_f,     // 1/M column a line
   output reg  [21:0] prim_minor1_m,     // modulus of r and f: the edge's height, 1/P line
-  output reg  [14:0] prim_minor2_c,     // signed, first column right of the edge
-  output reg  [21:0] prim_minor2_r,     // distance from the edge to that column, 1/M column
+  output reg  [14:0] prim_minor2_c,     // signed, first column on or right of the edge
+  output reg  [21:0] prim_minor2_dist,  // distance from the edge to that column, 1/M column
   output reg  [14:0] prim_minor2_q,     // signed, whole columns a line, step of c
   output reg  [21:0] prim_minor2_f,     // 1/M column a line
   output reg  [21:0] prim_minor2_m,     // modulus of r and f: the edge's height, 1/P line
@@ -384,7 +384,6 @@ module edgewalk_setup (
   reg [1:0] place0;                            // number of the vertex there
   reg [1:0] place1;                            // number of the vertex there
   reg [1:0] place2;                            // number of the vertex there
-  reg [2:0] number;                            // of the round of channels, or of the edge
   wire either = f0[23]
              || g0[23]
              || ((f1[23] || g1[23]) && beside && upper)
@@ -477,15 +476,6 @@ module edgewalk_setup (
   always @(posedge clk) begin
     if (act == 5'd1) place2 <= 2'd2;
     if (both_2) place2 <= place1;
-  end
-
-  always @(posedge clk) begin
-    if ((act == 5'd13) && runs) number <= 3'd0;
-    if ((act == 5'd14) && runs) number <= 3'd0;
-    if ((act == 5'd15) && runs) number <= 3'd1;
-    if ((act == 5'd16) && runs) number <= 3'd2;
-    if ((act == 5'd17) && runs) number <= 3'd0;
-    if ((jump == 4'd12) && (|number)) number <= number - 3'd1;
   end
 
   always @(posedge clk) begin
@@ -587,8 +577,7 @@ module edgewalk_setup (
             || ((jump == 4'd8) && lane0_is_negative)
             || ((jump == 4'd9) && unfit)
             || ((jump == 4'd10) && !upper)
-            || ((jump == 4'd11) && !lower)
-            || ((jump == 4'd12) && (|number));
+            || ((jump == 4'd11) && !lower);
   wire [7:0] choice = repeats ? place : (jump == 4'd15) ? link : jumps ? target : behind;
   assign next_place = choice & {8{runs}};
 
@@ -653,10 +642,8 @@ module edgewalk_setup (
   reg write_w_next;
   reg write_w_now;
   reg step_raised;
-  reg [2:0] step_number;
   reg does_step;
-  wire [3:0] value0 = {1'b0, number} + 4'd2;
-  wire [1:0] choice_3 = beside ? 2'd0 : number[1:0];
+  wire [1:0] choice_3 = beside ? 2'd0 : 2'd0;
   wire [1:0] choice_2 = (mode == 3'd6) ? {1'b0, choice_3 == 2'd2}
                       : (mode == 3'd7) ? ((choice_3 == 2'd1) ? 2'd1 : 2'd2)
                       : row[5:4];
@@ -664,14 +651,12 @@ module edgewalk_setup (
                       : (choice_2 == 2'd1) ? place1
                       : (choice_2 == 2'd2) ? place2
                       : 2'd3;
-  wire [7:0] row0 = ((mode == 3'd5) || (mode == 3'd6) || (mode == 3'd7)) ? {2'd2, choice_4, (&row[3:0]) ? value0 : row[3:0]}
-                  : (mode == 3'd3) ? {row[7:3], row[2:0] | number}
+  wire [7:0] row0 = ((mode == 3'd5) || (mode == 3'd6) || (mode == 3'd7)) ? {2'd2, choice_4, (&row[3:0]) ? 4'd2 : row[3:0]}
                   : (mode == 3'd1) ? {row[7:2], {f0[23], g0[23]}}
                   : (mode == 3'd2) ? {row[7:2], choice_3}
                   : (mode == 3'd4) ? {row[7:2], row[1], 1'b0}
                   : row;
-  wire [3:0] value1 = {1'b0, number} + 4'd2;
-  wire [1:0] choice_6 = beside ? 2'd1 : number[1:0];
+  wire [1:0] choice_6 = beside ? 2'd1 : 2'd0;
   wire [1:0] choice_5 = (mode == 3'd6) ? {1'b0, choice_6 == 2'd2}
                       : (mode == 3'd7) ? ((choice_6 == 2'd1) ? 2'd1 : 2'd2)
                       : row[5:4];
@@ -679,14 +664,12 @@ module edgewalk_setup (
                       : (choice_5 == 2'd1) ? place1
                       : (choice_5 == 2'd2) ? place2
                       : 2'd3;
-  wire [7:0] row1 = ((mode == 3'd5) || (mode == 3'd6) || (mode == 3'd7)) ? {2'd2, choice_7, (&row[3:0]) ? value1 : row[3:0]}
-                  : (mode == 3'd3) ? {row[7:3], row[2:0] | number}
+  wire [7:0] row1 = ((mode == 3'd5) || (mode == 3'd6) || (mode == 3'd7)) ? {2'd2, choice_7, (&row[3:0]) ? 4'd2 : row[3:0]}
                   : (mode == 3'd1) ? {row[7:2], beside ? {f1[23], g1[23]} : {f0[23], g0[23]}}
                   : (mode == 3'd2) ? {row[7:2], choice_6}
                   : (mode == 3'd4) ? {row[7:2], row[1], 1'b0}
                   : row;
-  wire [3:0] value2 = {1'b0, number} + 4'd2;
-  wire [1:0] choice_9 = beside ? 2'd2 : number[1:0];
+  wire [1:0] choice_9 = beside ? 2'd2 : 2'd0;
   wire [1:0] choice_8 = (mode == 3'd6) ? {1'b0, choice_9 == 2'd2}
                       : (mode == 3'd7) ? ((choice_9 == 2'd1) ? 2'd1 : 2'd2)
                       : row[5:4];
@@ -694,8 +677,7 @@ module edgewalk_setup (
                        : (choice_8 == 2'd1) ? place1
                        : (choice_8 == 2'd2) ? place2
                        : 2'd3;
-  wire [7:0] row2 = ((mode == 3'd5) || (mode == 3'd6) || (mode == 3'd7)) ? {2'd2, choice_10, (&row[3:0]) ? value2 : row[3:0]}
-                  : (mode == 3'd3) ? {row[7:3], row[2:0] | number}
+  wire [7:0] row2 = ((mode == 3'd5) || (mode == 3'd6) || (mode == 3'd7)) ? {2'd2, choice_10, (&row[3:0]) ? 4'd2 : row[3:0]}
                   : (mode == 3'd1) ? {row[7:2], beside ? {f2[23], g2[23]} : {f0[23], g0[23]}}
                   : (mode == 3'd2) ? {row[7:2], choice_9}
                   : (mode == 3'd4) ? {row[7:2], row[1], 1'b0}
@@ -708,22 +690,19 @@ module edgewalk_setup (
     step_of_whole <= whole;
     step_only_negative <= only == 3'd1;
     step_only_positive <= only == 3'd2;
-    write_row_next <= {write_row[6:3], write_row[2:0] | (number & {3{write_numbered}})};
+    write_row_next <= write_row;
     write_row_now <= write_row_next;
     write_a_next <= write_a && runs;
     write_a_now <= write_a_next;
     write_w_next <= write_w && runs;
     write_w_now <= write_w_next;
     step_raised <= raised;
-    step_number <= number;
     does_step <= starts_step;
   end
 
   // The prim.
   reg [3:0] result_giving;
   reg [3:0] result_given;
-  reg [2:0] number_giving;
-  reg [2:0] number_given;
   wire [45:0] lane0_rest;
   wire [45:0] lane0_whole;
   wire [7:0] choice_11 = fires ? {2'd2, vertex, coordinate ? part : (channel >> 2) + 4'd2}
@@ -845,8 +824,6 @@ module edgewalk_setup (
   always @(posedge clk) begin
     result_giving <= give;
     result_given <= result_giving;
-    number_giving <= number;
-    number_given <= number_giving;
   end
 
   always @(posedge clk) begin
@@ -873,7 +850,7 @@ module edgewalk_setup (
   end
 
   always @(posedge clk) begin
-    if (result_given == 4'd6) prim_major_r <= lane0_rest[29:8];
+    if (result_given == 4'd6) prim_major_dist <= lane0_rest[29:8];
   end
 
   always @(posedge clk) begin
@@ -897,8 +874,8 @@ module edgewalk_setup (
   end
 
   always @(posedge clk) begin
-    if (result_given == 4'd6) prim_minor1_r <= lane1_rest[29:8];
-    if ((result_given == 4'd6) && !upper) prim_minor1_r <= 22'd0;
+    if (result_given == 4'd6) prim_minor1_dist <= lane1_rest[29:8];
+    if ((result_given == 4'd6) && !upper) prim_minor1_dist <= 22'd0;
   end
 
   always @(posedge clk) begin
@@ -923,8 +900,8 @@ module edgewalk_setup (
   end
 
   always @(posedge clk) begin
-    if (result_given == 4'd6) prim_minor2_r <= lane2_rest[29:8];
-    if ((result_given == 4'd6) && !lower) prim_minor2_r <= 22'd0;
+    if (result_given == 4'd6) prim_minor2_dist <= lane2_rest[29:8];
+    if ((result_given == 4'd6) && !lower) prim_minor2_dist <= 22'd0;
   end
 
   always @(posedge clk) begin
@@ -933,7 +910,7 @@ module edgewalk_setup (
   end
 
   always @(posedge clk) begin
-    if ((result_given == 4'd8) && (number_given == 3'd0)) begin
+    if (result_given == 4'd8) begin
       prim_z_start <= lane0_whole[45:8];
       prim_r_start <= lane1_whole[29:8];
       prim_g_start <= lane2_whole[29:8];
@@ -942,7 +919,7 @@ module edgewalk_setup (
   end
 
   always @(posedge clk) begin
-    if ((result_given == 4'd9) && (number_given == 3'd0)) begin
+    if (result_given == 4'd9) begin
       prim_z_d0 <= lane0_whole[38:1];
       prim_r_d0 <= lane1_whole[22:1];
       prim_g_d0 <= lane2_whole[22:1];
@@ -951,7 +928,7 @@ module edgewalk_setup (
   end
 
   always @(posedge clk) begin
-    if ((result_given == 4'd10) && (number_given == 3'd0)) begin
+    if (result_given == 4'd10) begin
       prim_z_d1 <= lane0_whole[38:1];
       prim_r_d1 <= lane1_whole[22:1];
       prim_g_d1 <= lane2_whole[22:1];
@@ -960,7 +937,7 @@ module edgewalk_setup (
   end
 
   always @(posedge clk) begin
-    if ((result_given == 4'd11) && (number_given == 3'd0)) begin
+    if (result_given == 4'd11) begin
       prim_z_g <= lane0_whole[38:1];
       prim_r_g <= lane1_whole[22:1];
       prim_g_g <= lane2_whole[22:1];
@@ -973,7 +950,7 @@ module edgewalk_setup (
 
   // Not needed, on purpose.
   wire unused = &{
-    1'b0, of_channels, step_number, lane0_rest[45:30], lane1_rest[45:30], lane2_rest[45:30],
+    1'b0, write_numbered, of_channels, lane0_rest[45:30], lane1_rest[45:30], lane2_rest[45:30],
     lane3_whole[0]
   };
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 // edgewalk 0.1.0, machine 7efc7d48fe81
 
-// edgewalk_span: SPAN cuts a line to the screen and queues what is left of it.
+// edgewalk_span: SPAN cuts the end of a line to the screen and queues the span.
 //
 //   line ─> [end cut to the screen] ─> held ─> empty? ─no─> [FIFO] ─> span
 //                                                └─yes─> dropped; its flags wait for the next span
 //
-// Timing: a line is taken while none is held, or the queue has room for the one that is; a span is seen two cycles after its line
-// was taken at the earliest. An empty line takes its turn like any other.
+// Timing: SPAN takes a line if it holds none, or if the queue has room. A span appears two cycles after its line was taken, at the
+// earliest. An empty line takes its turn like any other.
 // Rules: the span is cut on the side where it ends. Columns off the screen on the side where it starts are
 // stepped over by PIXEL, as the channels must be stepped there too.
 
@@ -20,15 +20,15 @@ module edgewalk_span (
 
   input  wire        line_valid,
   input  wire  [8:0] line_y,            // line
-  input  wire [14:0] line_cmaj,         // signed, first column right of the major edge
-  input  wire [14:0] line_cmin,         // signed, first column right of the minor edge
+  input  wire [14:0] line_cmaj,         // signed, first column on or right of the major edge
+  input  wire [14:0] line_cmin,         // signed, first column on or right of the minor edge
   input  wire        line_major_right,  // the major edge is the right one
   input  wire [37:0] line_z,            // UQ24.14 LSB, modular
   input  wire [21:0] line_r,            // UQ8.14 LSB, modular
   input  wire [21:0] line_g,            // UQ8.14 LSB, modular
   input  wire [21:0] line_b,            // UQ8.14 LSB, modular
   input  wire        line_fresh,        // first line of the triangle
-  input  wire        line_fence,        // fragments in flight may lie on the same pixels
+  input  wire        line_fence,        // older fragments of the same pixel may be in flight
   input  wire        span_ready,
 
   output wire        line_ready,
@@ -42,7 +42,7 @@ module edgewalk_span (
   output wire [21:0] span_g,            // UQ8.14 LSB, modular
   output wire [21:0] span_b,            // UQ8.14 LSB, modular
   output wire        span_fresh,        // first span of the triangle; increments are new
-  output wire        span_fence,        // fragments in flight may lie on the same pixels
+  output wire        span_fence,        // older fragments of the same pixel may be in flight
   output wire        fresh_queued,      // the first span of a triangle is queued, or may come of the line held
   output reg         line_held          // a line stands before the queue
 );
@@ -72,7 +72,7 @@ module edgewalk_span (
   reg [21:0] held_g;                          // UQ8.14 LSB, modular
   reg [21:0] held_b;                          // UQ8.14 LSB, modular
   reg held_fresh;                             // first span of the triangle; increments are new
-  reg held_fence;                             // fragments in flight may lie on the same pixels
+  reg held_fence;                             // older fragments of the same pixel may be in flight
   reg [14:0] held_first;                      // signed, first column
   reg [14:0] held_end;                        // signed, the column behind the last, or one beyond the screen
   reg held_beyond;                            // 1: the span ends with the screen

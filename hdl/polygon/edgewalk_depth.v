@@ -29,7 +29,7 @@ module edgewalk_depth (
   input  wire  [7:0] frag_r,       // unorm8
   input  wire  [7:0] frag_g,       // unorm8
   input  wire  [7:0] frag_b,       // unorm8
-  input  wire        frag_fence,   // fragments in flight may lie on the same pixel
+  input  wire        frag_fence,   // older fragments of the same pixel may be in flight
   input  wire        rd_ready,
   input  wire        data_valid,
   input  wire [23:0] data_z,       // unorm24, old depth of the address read
@@ -88,7 +88,7 @@ module edgewalk_depth (
   reg place3_fwd_valid;     // an older fragment wrote this pixel
   reg [23:0] place3_fwd_z;  // depth from the youngest older fragment of this pixel
 
-  // A fragment enters when the queue has room and no fragment in flight may change its depth.
+  // A fragment enters while the queue has room: its depth may still be in flight, as it is forwarded.
   assign full = count[2];
   assign hazard = 1'b0;
   wire clear_to_read = !full && !hazard;

@@ -30,7 +30,7 @@ module edgewalk_pixel (
   input  wire [21:0] span_g,         // UQ8.14 LSB, modular
   input  wire [21:0] span_b,         // UQ8.14 LSB, modular
   input  wire        span_fresh,     // first span of the triangle; increments are new
-  input  wire        span_fence,     // fragments in flight may lie on the same pixels
+  input  wire        span_fence,     // older fragments of the same pixel may be in flight
   input  wire [37:0] inc_z,          // UQ24.14 LSB, modular
   input  wire [21:0] inc_r,          // UQ8.14 LSB, modular
   input  wire [21:0] inc_g,          // UQ8.14 LSB, modular
@@ -44,7 +44,7 @@ module edgewalk_pixel (
   output reg   [7:0] frag_r,         // unorm8
   output reg   [7:0] frag_g,         // unorm8
   output reg   [7:0] frag_b,         // unorm8
-  output reg         frag_fence,     // fragments in flight may lie on the same pixel
+  output reg         frag_fence,     // older fragments of the same pixel may be in flight
   output reg         active,         // a span is in progress
   output wire        visible,        // the current pixel is on the screen
   output wire        advance,        // the output is free or taken: the unit advances
@@ -155,7 +155,7 @@ module edgewalk_pixel (
     if (advance) b_value <= goes_on ? b_sum : span_b;
   end
 
-  // Output: each stage completes the bits of one more segment.
+  // Output register: loads a fragment while PIXEL advances.
   always @(posedge clk) begin
     if (advance) begin
       frag_addr <= {y, x[9:0]};

@@ -30,22 +30,22 @@ module edgewalk_poly (
   input  wire  [9:0] prim_n2,           // lines of the lower part
   input  wire        prim_major_right,  // the major edge is the right one
   input  wire  [2:0] prim_sides,        // major, first and second minor edge count, a bit each
-  input  wire        prim_ends,         // the last edges of a polygon, with its plane
+  input  wire        prim_ends,         // 1: a whole triangle or line, or the last edges of a polygon with its plane
   input  wire        prim_void,         // the plane has no area: nothing is drawn
   input  wire  [9:0] prim_start_x,      // column of the pixel at which values start
   input  wire  [8:0] prim_start_y,      // its line, the first that is drawn
-  input  wire [14:0] prim_major_c,      // signed, first column right of the edge
-  input  wire [21:0] prim_major_r,      // distance from the edge to that column, 1/M column
+  input  wire [14:0] prim_major_c,      // signed, first column on or right of the edge
+  input  wire [21:0] prim_major_dist,   // distance from the edge to that column, 1/M column
   input  wire [14:0] prim_major_q,      // signed, whole columns a line, step of c
   input  wire [21:0] prim_major_f,      // 1/M column a line
   input  wire [21:0] prim_major_m,      // modulus of r and f: the edge's height, 1/P line
-  input  wire [14:0] prim_minor1_c,     // signed, first column right of the edge
-  input  wire [21:0] prim_minor1_r,     // distance from the edge to that column, 1/M column
+  input  wire [14:0] prim_minor1_c,     // signed, first column on or right of the edge
+  input  wire [21:0] prim_minor1_dist,  // distance from the edge to that column, 1/M column
   input  wire [14:0] prim_minor1_q,     // signed, whole columns a line, step of c
   input  wire [21:0] prim_minor1_f,     // 1/M column a line
   input  wire [21:0] prim_minor1_m,     // modulus of r and f: the edge's height, 1/P line
-  input  wire [14:0] prim_minor2_c,     // signed, first column right of the edge
-  input  wire [21:0] prim_minor2_r,     // distance from the edge to that column, 1/M column
+  input  wire [14:0] prim_minor2_c,     // signed, first column on or right of the edge
+  input  wire [21:0] prim_minor2_dist,  // distance from the edge to that column, 1/M column
   input  wire [14:0] prim_minor2_q,     // signed, whole columns a line, step of c
   input  wire [21:0] prim_minor2_f,     // 1/M column a line
   input  wire [21:0] prim_minor2_m,     // modulus of r and f: the edge's height, 1/P line
@@ -67,15 +67,15 @@ module edgewalk_poly (
   output wire        prim_ready,
   output wire        line_valid,
   output reg   [8:0] line_y,            // line
-  output reg  [14:0] line_cmaj,         // signed, first column right of the major edge
-  output reg  [14:0] line_cmin,         // signed, first column right of the minor edge
+  output reg  [14:0] line_cmaj,         // signed, first column of the span
+  output reg  [14:0] line_cmin,         // signed, column behind the span
   output wire        line_major_right,  // the major edge is the right one
   output reg  [37:0] line_z,            // UQ24.14 LSB, modular
   output reg  [21:0] line_r,            // UQ8.14 LSB, modular
   output reg  [21:0] line_g,            // UQ8.14 LSB, modular
   output reg  [21:0] line_b,            // UQ8.14 LSB, modular
-  output reg         line_fresh,        // first line of the triangle
-  output wire        line_fence,        // fragments in flight may lie on the same pixels
+  output reg         line_fresh,        // first span of the polygon
+  output wire        line_fence,        // older fragments of the same pixel may be in flight
   output reg  [37:0] inc_z,             // UQ24.14 LSB, modular
   output reg  [21:0] inc_r,             // UQ8.14 LSB, modular
   output reg  [21:0] inc_g,             // UQ8.14 LSB, modular
@@ -108,17 +108,28 @@ module edgewalk_poly (
                      minor1_left && !major_left,
                      major_left};
   wire takes = prim_valid && !putting && any_left && !pass_writes;  // a side is loaded
-  wire [8:0] first_line = major_left ? prim_jm : minor1_left ? prim_jm : knee;
-  wire [9:0] lines = major_left ? all_lines : minor1_left ? prim_n1 : prim_n2;
-  wire [14:0] loaded_c = major_left ? prim_major_c : minor1_left ? prim_minor1_c : prim_minor2_c;
-  wire [21:0] loaded_r = major_left ? prim_major_r : minor1_left ? prim_minor1_r : prim_minor2_r;
-  wire [14:0] loaded_q = major_left ? prim_major_q : minor1_left ? prim_minor1_q : prim_minor2_q;
-  wire [21:0] loaded_f = major_left ? prim_major_f : minor1_left ? prim_minor1_f : prim_minor2_f;
-  wire [21:0] loaded_m = major_left ? prim_major_m : minor1_left ? prim_minor1_m : prim_minor2_m;
+  wire of_major = prim_sides[0] && !did[0];
+  wire [8:0] first_line = of_major ? prim_jm : minor1_left ? prim_jm : knee;
+  wire [9:0] lines = of_major ? all_lines : minor1_left ? prim_n1 : prim_n2;
+  wire [14:0] loaded_c = of_major ? prim_major_c : minor1_left ? prim_minor1_c : prim_minor2_c;
+  wire [21:0] loaded_dist = of_major ? prim_major_dist
+                          : minor1_left ? prim_minor1_dist
+                          : prim_minor2_dist;
+  wire [14:0] loaded_q = of_major ? prim_major_q : minor1_left ? prim_minor1_q : prim_minor2_q;
+  wire [21:0] loaded_f = of_major ? prim_major_f : minor1_left ? prim_minor1_f : prim_minor2_f;
+  wire [21:0] loaded_m = of_major ? prim_major_m : minor1_left ? prim_minor1_m : prim_minor2_m;
   assign prim_ready = !putting && !any_left && !(prim_ends && (walking || fresh_queued));
   wire fires = prim_valid && prim_ready;
   wire closes = fires && prim_ends;          // the polygon has all its edges
-  wire begins = closes && (|edges) && !over && !prim_void;
+  wire may_begin = prim_valid
+                && prim_ends
+                && !putting
+                && !walking
+                && !fresh_queued
+                && (|edges)
+                && !over
+                && !prim_void;
+  wire begins = may_begin && !any_left;
   assign refused = closes && over;
   wire stores = takes && !edges[6];
   wire [6:0] load_place = {bank, edges[5:0]};
@@ -127,7 +138,7 @@ module edgewalk_poly (
     if (stores) steps[load_place] <= {loaded_c, loaded_q, loaded_f, loaded_m};
   end
 
-  wire [22:0] first_rest = {1'b0, loaded_r} - {1'b0, loaded_f};  // R - f, signed
+  wire [22:0] first_rest = {1'b0, loaded_dist} - {1'b0, loaded_f};  // R - f, signed
 
   always @(posedge clk) begin
     if (rst) begin
@@ -159,7 +170,9 @@ module edgewalk_poly (
   reg [8:0] last_first;  // first line of the last edge of the list
   reg [5:0] position;    // the place that is free
   reg [8:0] put_line;    // first line of the edge that is put there
-  wire later = (first_line >= last_first) || !(|edges);  // no edge of the list begins later
+  wire top_later = prim_jm >= last_first;
+  wire knee_later = knee >= last_first;
+  wire later = ((of_major || minor1_left) ? top_later : knee_later) || !(|edges);  // no edge of the list begins later
   wire appends = stores && later;
   wire inserts = stores && !later;
   wire [5:0] below = (putting ? position - 6'd1 : edges[5:0]) - 6'd1;
@@ -185,7 +198,7 @@ module edgewalk_poly (
   end
 
   always @(posedge clk) begin
-    if (inserts) put_line <= first_line;
+    if (!putting) put_line <= first_line;
   end
 
   always @(posedge clk) begin
@@ -214,6 +227,7 @@ module edgewalk_poly (
   // PASS: the active list of line y through the stages B, a word, and C, the word with its record.
   reg run;                             // lines are passed
   reg [8:0] y;                         // the line
+  reg [8:0] y_below;                   // the line below
   reg list;                            // the active list that is read: that of the line
   reg half;                            // the first column of a pair is there
   reg b_valid;
@@ -243,7 +257,7 @@ module edgewalk_poly (
   reg [5:0] order_next;  // place behind that of the next edge
   wire [14:0] order_word;
   wire some_waits = |waiting;
-  wire begins_on_next = order_word[14:6] == (y + 9'd1);
+  wire begins_on_next = order_word[14:6] == y_below;
   wire enters = run && !b_valid && some_waits && begins_on_next;
   wire entered = advance && enters;
   reg [14:0] order_q2;
@@ -337,16 +351,24 @@ module edgewalk_poly (
     end
   end
 
-  // Each second column closes a pair.
+  // Each second column closes a pair. While no pair waits its place takes what may become one.
   wire walked = advance && passed;
-  reg [14:0] left;  // first column of the pair
+  reg [14:0] left;           // first column of the pair
   wire pair_closed = advance && closes_pair;
+  wire right_cut = !c_column[14] && (c_column >= 15'd640);  // the pair ends beside the screen
+  wire left_cut = left[14];  // the pair begins beside the screen
+  wire some_columns = ($signed(left) < $signed(c_column))  // of the screen
+                   && !(!left[14] && (left >= 15'd640))
+                   && !c_column[14] && (|c_column);
+  wire [14:0] first = left_cut ? 15'd0 : left;
+  wire [14:0] behind = right_cut ? 15'd640 : c_column;
   reg [8:0] pair_line;
-  reg [14:0] pair_left;
-  reg [14:0] pair_right;
+  reg pair_some;
+  reg [14:0] pair_first;
+  reg [14:0] pair_behind;
 
   always @(posedge clk) begin
-    if (walked) left <= c_column;
+    if (!half) left <= c_column;
   end
 
   always @(posedge clk) begin
@@ -368,10 +390,11 @@ module edgewalk_poly (
   end
 
   always @(posedge clk) begin
-    if (pair_closed) begin
+    if (!pair_waits) begin
       pair_line <= y;
-      pair_left <= left;
-      pair_right <= c_column;
+      pair_some <= some_columns;
+      pair_first <= first;
+      pair_behind <= behind;
     end
   end
 
@@ -491,8 +514,14 @@ module edgewalk_poly (
   end
 
   always @(posedge clk) begin
-    if (line_ends) y <= y + 9'd1;
-    if (!run) y <= line_before;
+    if (line_ends) begin
+      y <= y_below;
+      y_below <= y_below + 9'd1;
+    end
+    if (!run) begin
+      y <= line_before;
+      y_below <= prim_start_y;
+    end
   end
 
   always @(posedge clk) begin
@@ -503,18 +532,11 @@ module edgewalk_poly (
     end
   end
 
-  // MOVER: the pair that waits, cut to the screen; it is dropped if nothing is left.
-  wire right_cut = !pair_right[14] && (pair_right >= 15'd640);  // the pair ends beside the screen
-  wire left_cut = pair_left[14];  // the pair begins beside the screen
-  wire some_columns = ($signed(pair_left) < $signed(pair_right))  // of the screen
-                   && !(!pair_left[14] && (pair_left >= 15'd640))
-                   && !pair_right[14] && (|pair_right);
-  wire [14:0] first = left_cut ? 15'd0 : pair_left;
-  wire [14:0] behind = right_cut ? 15'd640 : pair_right;
-  reg has_span;                   // a span is offered, or values move to it
+  // MOVER: the pair that waits; it is dropped if it has no column of the screen.
+  reg has_span;  // a span is offered, or values move to it
   wire line_fires = line_valid && line_ready;
   wire free = !has_span || line_fires;
-  wire takes_pair = pair_waits && some_columns && free;
+  wire takes_pair = pair_waits && pair_some && free;
 
   always @(posedge clk) begin
     if (rst) begin
@@ -528,8 +550,9 @@ module edgewalk_poly (
   // The way to the span: lines down, then columns to the right or to the left.
   reg [8:0] at_line;        // line of the span before
   reg [9:0] at_column;      // its first column
-  wire [10:0] beside = {1'b0, first[9:0]} - {1'b0, at_column};  // signed, columns
-  wire [9:0] columns_away = (beside[9:0] ^ {10{beside[10]}}) + {9'd0, beside[10]};
+  wire [10:0] beside = {1'b0, pair_first[9:0]} - {1'b0, at_column};  // signed, columns
+  wire [9:0] back = at_column - pair_first[9:0];
+  wire [9:0] columns_away = beside[10] ? back : beside[9:0];
   reg [8:0] lines_down;     // lines left to go down
   reg [9:0] columns_along;  // columns left to go, in doubles of what is added
   reg down;                 // lines are left
@@ -542,7 +565,7 @@ module edgewalk_poly (
   always @(posedge clk) begin
     if (takes_pair) begin
       at_line <= pair_line;
-      at_column <= first[9:0];
+      at_column <= pair_first[9:0];
     end
     if (!walking) begin
       at_line <= prim_start_y;
@@ -554,11 +577,9 @@ module edgewalk_poly (
     if (takes_pair) to_left <= beside[10];
   end
 
-  wire [8:0] difference = pair_line - at_line;
-
   always @(posedge clk) begin
     if (down) lines_down <= lines_down - 9'd1;
-    if (takes_pair) lines_down <= difference;
+    if (takes_pair) lines_down <= pair_line - at_line;
   end
 
   always @(posedge clk) begin
@@ -566,7 +587,7 @@ module edgewalk_poly (
       down <= 1'b0;
     end else begin
       if (down) down <= lines_down != 9'd1;
-      if (takes_pair) down <= |difference;
+      if (takes_pair) down <= pair_line != at_line;
     end
   end
 
@@ -582,7 +603,7 @@ module edgewalk_poly (
       along <= 1'b0;
     end else begin
       if (doubles) along <= |shifted;
-      if (takes_pair) along <= |columns_away;
+      if (takes_pair) along <= pair_first[9:0] != at_column;
     end
   end
 
@@ -590,8 +611,8 @@ module edgewalk_poly (
   always @(posedge clk) begin
     if (takes_pair) begin
       line_y <= pair_line;
-      line_cmaj <= first;
-      line_cmin <= behind;
+      line_cmaj <= pair_first;
+      line_cmin <= pair_behind;
     end
   end
 
@@ -600,7 +621,7 @@ module edgewalk_poly (
     if (!walking) line_fresh <= 1'b1;
   end
 
-  // The values: d0 is added a line, and the increment as often as its double has a bit in the number of columns.
+  // Values: d0 is added once a line. For each set bit i of the number of columns the increment, doubled i times, is added.
   reg [37:0] z_d0;     // step to the next line
   reg [37:0] z_along;  // increment, doubled as often as it was asked for
   wire [37:0] z_added = down ? z_d0 : z_along ^ {38{to_left}};
@@ -617,7 +638,7 @@ module edgewalk_poly (
   reg [21:0] b_along;  // increment, doubled as often as it was asked for
   wire [21:0] b_added = down ? b_d0 : b_along ^ {22{to_left}};
   wire [22:0] b_moved = {line_b, 1'b1} + {b_added, !down && to_left};  // and a carry out of the lowest bit
-  assign pair_leaves = pair_waits && (free || !some_columns);
+  assign pair_leaves = pair_waits && (free || !pair_some);
   assign walking = run || pair_waits || has_span;
 
   always @(posedge clk) begin

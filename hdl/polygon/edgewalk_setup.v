@@ -54,22 +54,22 @@ module edgewalk_setup (
   output reg   [9:0] prim_n2,           // lines of the lower part
   output wire        prim_major_right,  // the major edge is the right one
   output reg   [2:0] prim_sides,        // major, first and second minor edge count, a bit each
-  output reg         prim_ends,         // the last edges of a polygon, with its plane
+  output reg         prim_ends,         // 1: a whole triangle or line, or the last edges of a polygon with its plane
   output wire        prim_void,         // the plane has no area: nothing is drawn
   output reg   [9:0] prim_start_x,      // column of the pixel at which values start
   output reg   [8:0] prim_start_y,      // its line, the first that is drawn
-  output reg  [14:0] prim_major_c,      // signed, first column right of the edge
-  output reg  [21:0] prim_major_r,      // distance from the edge to that column, 1/M column
+  output reg  [14:0] prim_major_c,      // signed, first column on or right of the edge
+  output reg  [21:0] prim_major_dist,   // distance from the edge to that column, 1/M column
   output reg  [14:0] prim_major_q,      // signed, whole columns a line, step of c
   output reg  [21:0] prim_major_f,      // 1/M column a line
   output wire [21:0] prim_major_m,      // modulus of r and f: the edge's height, 1/P line
-  output reg  [14:0] prim_minor1_c,     // signed, first column right of the edge
-  output reg  [21:0] prim_minor1_r,     // distance from the edge to that column, 1/M column
+  output reg  [14:0] prim_minor1_c,     // signed, first column on or right of the edge
+  output reg  [21:0] prim_minor1_dist,  // distance from the edge to that column, 1/M column
   output reg  [14:0] prim_minor1_q,     // signed, whole columns a line, step of c
   output reg  [21:0] prim_minor1_f,     // 1/M column a line
   output wire [21:0] prim_minor1_m,     // modulus of r and f: the edge's height, 1/P line
-  output reg  [14:0] prim_minor2_c,     // signed, first column right of the edge
-  output reg  [21:0] prim_minor2_r,     // distance from the edge to that column, 1/M column
+  output reg  [14:0] prim_minor2_c,     // signed, first column on or right of the edge
+  output reg  [21:0] prim_minor2_dist,  // distance from the edge to that column, 1/M column
   output reg  [14:0] prim_minor2_q,     // signed, whole columns a line, step of c
   output reg  [21:0] prim_minor2_f,     // 1/M column a line
   output wire [21:0] prim_minor2_m,     // modulus of r and f: the edge's height, 1/P line
@@ -147,7 +147,7 @@ module edgewalk_setup (
   wire last = left == 5'd0;                    // last clock of the operation
   wire edges_end = last && (at == SUM) && last_round_of_edges;
   wire waits = edges_end && !area_known;       // for the area or its scale
-  wire goes = works && !waits && !gives_up;    // the operation is done
+  wire goes = works && !waits && !gives_up;    // a step of the operation is done in this clock
   wire ends = goes && last;                    // it ends
   wire leaves = ends && advance;
   wire channels_end = at == SUM_START;
@@ -490,7 +490,7 @@ module edgewalk_setup (
     prim_n2 <= difference_2[9:0];
   end
 
-  // Columns: no centre of the screen lies from the leftmost to before the rightmost vertex.
+  // Columns: is there a column centre of the screen from the leftmost up to before the rightmost vertex?
   wire [13:0] column0 = p0_u[21:8] + {13'd0, |p0_u[7:0]};  // ceil(u/P)
   wire [13:0] column1 = p1_u[21:8] + {13'd0, |p1_u[7:0]};  // ceil(u/P)
   wire [13:0] column2 = p2_u[21:8] + {13'd0, |p2_u[7:0]};  // ceil(u/P)
@@ -839,8 +839,8 @@ module edgewalk_setup (
 
   always @(posedge clk) begin
     if (ends_rest && (at_rest == SUM)) begin
-      prim_major_r <= (((|prim_n1) || (|prim_n2)) && prim_sides[0]) ? ((|lane0_rest_out) ? difference_6[29:8] : 22'd0)
-                    : 22'd0;
+      prim_major_dist <= (((|prim_n1) || (|prim_n2)) && prim_sides[0]) ? ((|lane0_rest_out) ? difference_6[29:8] : 22'd0)
+                       : 22'd0;
     end
   end
 
@@ -897,8 +897,8 @@ module edgewalk_setup (
 
   always @(posedge clk) begin
     if (ends_rest && (at_rest == SUM)) begin
-      prim_minor1_r <= ((|prim_n1) && prim_sides[1]) ? ((|lane1_rest_out) ? difference_7[29:8] : 22'd0)
-                     : 22'd0;
+      prim_minor1_dist <= ((|prim_n1) && prim_sides[1]) ? ((|lane1_rest_out) ? difference_7[29:8] : 22'd0)
+                        : 22'd0;
     end
   end
 
@@ -958,8 +958,8 @@ module edgewalk_setup (
 
   always @(posedge clk) begin
     if (ends_rest && (at_rest == SUM)) begin
-      prim_minor2_r <= ((|prim_n2) && prim_sides[2]) ? ((|lane2_rest_out) ? difference_8[29:8] : 22'd0)
-                     : 22'd0;
+      prim_minor2_dist <= ((|prim_n2) && prim_sides[2]) ? ((|lane2_rest_out) ? difference_8[29:8] : 22'd0)
+                        : 22'd0;
     end
   end
 

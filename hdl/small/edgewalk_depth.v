@@ -29,7 +29,7 @@ module edgewalk_depth (
   input  wire  [4:0] frag_r,       // unorm5
   input  wire  [4:0] frag_g,       // unorm5
   input  wire  [4:0] frag_b,       // unorm5
-  input  wire        frag_fence,   // fragments in flight may lie on the same pixel
+  input  wire        frag_fence,   // older fragments of the same pixel may be in flight
   input  wire        rd_ready,
   input  wire        data_valid,
   input  wire [15:0] data_z,       // unorm16, old depth of the address read
@@ -64,7 +64,7 @@ module edgewalk_depth (
   reg [4:0] place1_g;      // unorm5
   reg [4:0] place1_b;      // unorm5
 
-  // A fragment enters when the queue has room and no fragment in flight may change its depth.
+  // A fragment enters while the queue has room and no fragment in flight may change its depth.
   assign full = count[1];
   assign hazard = frag_fence && ((|count) || wr_valid);
   wire clear_to_read = !full && !hazard;

@@ -48,18 +48,18 @@ module edgewalk_setup (
   output reg   [8:0] prim_n1,           // lines of the upper part
   output reg   [8:0] prim_n2,           // lines of the lower part
   output wire        prim_major_right,  // the major edge is the right one
-  output reg   [9:0] prim_major_c,      // signed, first column right of the edge
-  output reg  [11:0] prim_major_r,      // distance from the edge to that column, 1/M column
+  output reg   [9:0] prim_major_c,      // signed, first column on or right of the edge
+  output reg  [11:0] prim_major_dist,   // distance from the edge to that column, 1/M column
   output reg   [9:0] prim_major_q,      // signed, whole columns a line, step of c
   output reg  [11:0] prim_major_f,      // 1/M column a line
   output wire [11:0] prim_major_m,      // modulus of r and f: the edge's height, 1/P line
-  output reg   [9:0] prim_minor1_c,     // signed, first column right of the edge
-  output reg  [11:0] prim_minor1_r,     // distance from the edge to that column, 1/M column
+  output reg   [9:0] prim_minor1_c,     // signed, first column on or right of the edge
+  output reg  [11:0] prim_minor1_dist,  // distance from the edge to that column, 1/M column
   output reg   [9:0] prim_minor1_q,     // signed, whole columns a line, step of c
   output reg  [11:0] prim_minor1_f,     // 1/M column a line
   output wire [11:0] prim_minor1_m,     // modulus of r and f: the edge's height, 1/P line
-  output reg   [9:0] prim_minor2_c,     // signed, first column right of the edge
-  output reg  [11:0] prim_minor2_r,     // distance from the edge to that column, 1/M column
+  output reg   [9:0] prim_minor2_c,     // signed, first column on or right of the edge
+  output reg  [11:0] prim_minor2_dist,  // distance from the edge to that column, 1/M column
   output reg   [9:0] prim_minor2_q,     // signed, whole columns a line, step of c
   output reg  [11:0] prim_minor2_f,     // 1/M column a line
   output wire [11:0] prim_minor2_m,     // modulus of r and f: the edge's height, 1/P line
@@ -132,7 +132,7 @@ module edgewalk_setup (
   wire edges_end = last && (at == SUM) && (round == 2'd2);
   wire round_ends = last && (at == SUM_START) && !(round == 2'd3);
   wire waits = (edges_end || round_ends) && !area_known;  // for the area or its scale
-  wire goes = works && !waits && !gives_up;  // the operation is done
+  wire goes = works && !waits && !gives_up;  // a step of the operation is done in this clock
   wire ends = goes && last;                  // it ends
   wire leaves = ends && advance;
   wire channels_end = (at == SUM_START) && (round == 2'd3);
@@ -438,7 +438,7 @@ module edgewalk_setup (
     prim_n2 <= difference_2[8:0];
   end
 
-  // Columns: no centre of the screen lies from the leftmost to before the rightmost vertex.
+  // Columns: is there a column centre of the screen from the leftmost up to before the rightmost vertex?
   wire [8:0] column0 = p0_u[11:3] + {8'd0, |p0_u[2:0]};  // ceil(u/P)
   wire [8:0] column1 = p1_u[11:3] + {8'd0, |p1_u[2:0]};  // ceil(u/P)
   wire [8:0] column2 = p2_u[11:3] + {8'd0, |p2_u[2:0]};  // ceil(u/P)
@@ -760,7 +760,7 @@ module edgewalk_setup (
 
   always @(posedge clk) begin
     if (ends_rest && (at_rest == SUM) && (round_rest == 2'd0)) begin
-      prim_major_r <= (|lane0_rest_out) ? difference_4[14:3] : 12'd0;
+      prim_major_dist <= (|lane0_rest_out) ? difference_4[14:3] : 12'd0;
     end
   end
 
@@ -788,7 +788,7 @@ module edgewalk_setup (
 
   always @(posedge clk) begin
     if (ends_rest && (at_rest == SUM) && (round_rest == 2'd1)) begin
-      prim_minor1_r <= (|prim_n1) ? ((|lane0_rest_out) ? difference_5[14:3] : 12'd0) : 12'd0;
+      prim_minor1_dist <= (|prim_n1) ? ((|lane0_rest_out) ? difference_5[14:3] : 12'd0) : 12'd0;
     end
   end
 
@@ -818,7 +818,7 @@ module edgewalk_setup (
 
   always @(posedge clk) begin
     if (ends_rest && (at_rest == SUM) && (round_rest == 2'd2)) begin
-      prim_minor2_r <= (|prim_n2) ? ((|lane0_rest_out) ? difference_6[14:3] : 12'd0) : 12'd0;
+      prim_minor2_dist <= (|prim_n2) ? ((|lane0_rest_out) ? difference_6[14:3] : 12'd0) : 12'd0;
     end
   end
 

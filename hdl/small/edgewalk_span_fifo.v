@@ -25,7 +25,7 @@ module edgewalk_span_fifo (
   input  wire [14:0] in_g,          // UQ5.10 LSB, modular
   input  wire [14:0] in_b,          // UQ5.10 LSB, modular
   input  wire        in_fresh,      // first span of the triangle; increments are new
-  input  wire        in_fence,      // fragments in flight may lie on the same pixels
+  input  wire        in_fence,      // older fragments of the same pixel may be in flight
   input  wire        out_ready,
 
   output wire        any_fresh,     // a queued token has this flag
@@ -40,7 +40,7 @@ module edgewalk_span_fifo (
   output wire [14:0] out_g,         // UQ5.10 LSB, modular
   output wire [14:0] out_b,         // UQ5.10 LSB, modular
   output wire        out_fresh,     // first span of the triangle; increments are new
-  output wire        out_fence      // fragments in flight may lie on the same pixels
+  output wire        out_fence      // older fragments of the same pixel may be in flight
 );
 
   // Count of the places in use; place 0 is the first.
@@ -69,7 +69,7 @@ module edgewalk_span_fifo (
   reg [14:0] place0_g;     // UQ5.10 LSB, modular
   reg [14:0] place0_b;     // UQ5.10 LSB, modular
   reg place0_fresh;        // first span of the triangle; increments are new
-  reg place0_fence;        // fragments in flight may lie on the same pixels
+  reg place0_fence;        // older fragments of the same pixel may be in flight
   wire place0_moves = pop || (count <= 1'b0);
   reg any_fresh_queued;    // a queued token has this flag
 

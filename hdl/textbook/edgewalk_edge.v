@@ -25,16 +25,16 @@ module edgewalk_edge (
   input  wire  [9:0] prim_n1,           // lines of the upper part
   input  wire  [9:0] prim_n2,           // lines of the lower part
   input  wire        prim_major_right,  // the major edge is the right one
-  input  wire [14:0] prim_major_c,      // signed, first column right of the edge
-  input  wire [15:0] prim_major_r,      // distance from the edge to that column, 2^-F column
+  input  wire [14:0] prim_major_c,      // signed, first column on or right of the edge
+  input  wire [15:0] prim_major_dist,   // distance from the edge to that column, 2^-F column
   input  wire [14:0] prim_major_q,      // signed, whole columns a line, step of c
   input  wire [15:0] prim_major_f,      // 2^-F column a line
-  input  wire [14:0] prim_minor1_c,     // signed, first column right of the edge
-  input  wire [15:0] prim_minor1_r,     // distance from the edge to that column, 2^-F column
+  input  wire [14:0] prim_minor1_c,     // signed, first column on or right of the edge
+  input  wire [15:0] prim_minor1_dist,  // distance from the edge to that column, 2^-F column
   input  wire [14:0] prim_minor1_q,     // signed, whole columns a line, step of c
   input  wire [15:0] prim_minor1_f,     // 2^-F column a line
-  input  wire [14:0] prim_minor2_c,     // signed, first column right of the edge
-  input  wire [15:0] prim_minor2_r,     // distance from the edge to that column, 2^-F column
+  input  wire [14:0] prim_minor2_c,     // signed, first column on or right of the edge
+  input  wire [15:0] prim_minor2_dist,  // distance from the edge to that column, 2^-F column
   input  wire [14:0] prim_minor2_q,     // signed, whole columns a line, step of c
   input  wire [15:0] prim_minor2_f,     // 2^-F column a line
   input  wire [29:0] prim_z_start_a,    // UQ16.14 LSB, modular, value on the left edge, first line of part 1
@@ -63,15 +63,15 @@ module edgewalk_edge (
   output wire        prim_ready,
   output wire        line_valid,
   output reg   [8:0] line_y,            // line
-  output wire [14:0] line_cmaj,         // signed, first column right of the major edge
-  output wire [14:0] line_cmin,         // signed, first column right of the minor edge
+  output wire [14:0] line_cmaj,         // signed, first column on or right of the major edge
+  output wire [14:0] line_cmin,         // signed, first column on or right of the minor edge
   output reg         line_major_right,  // the major edge is the right one
   output reg  [29:0] line_z,            // UQ16.14 LSB, modular
   output reg  [21:0] line_r,            // UQ8.14 LSB, modular
   output reg  [21:0] line_g,            // UQ8.14 LSB, modular
   output reg  [21:0] line_b,            // UQ8.14 LSB, modular
   output reg         line_fresh,        // first line of the triangle
-  output reg         line_fence,        // fragments in flight may lie on the same pixels
+  output reg         line_fence,        // older fragments of the same pixel may be in flight
   output reg  [29:0] inc_z,             // UQ16.14 LSB, modular
   output reg  [21:0] inc_r,             // UQ8.14 LSB, modular
   output reg  [21:0] inc_g,             // UQ8.14 LSB, modular
@@ -85,7 +85,7 @@ module edgewalk_edge (
   wire load = prim_valid && prim_ready;
   wire step = running && line_ready;
 
-  // Between triangles the registers load the next triangle in every clock until PIXEL has taken the increments, so they need no enable.
+  // While EDGE is idle the registers load the offered triangle in every clock. So their enable does not wait for fresh_queued.
   reg idle;                           // not running; selects what the registers load
   wire at_end = step && last;
   wire offered = idle && prim_valid;  // the next triangle is there
@@ -159,11 +159,11 @@ module edgewalk_edge (
   end
 
   // The major edge.
-  reg [14:0] major_c;     // signed, first column right of the edge
+  reg [14:0] major_c;     // signed, first column on or right of the edge
   reg [14:0] major_q;     // signed, whole columns a line, step of c
   reg [15:0] major_f;     // 2^-F column a line
   reg [16:0] major_rest;  // R - f, signed: below 0 the step carries
-  wire [16:0] major_next = idle ? {1'b0, prim_major_r} - {1'b0, prim_major_f}
+  wire [16:0] major_next = idle ? {1'b0, prim_major_dist} - {1'b0, prim_major_f}
                          : {1'b0, major_rest[15:0]} - {1'b0, major_f};
   reg carry;              // the major edge carries in its next step
 
@@ -190,17 +190,17 @@ module edgewalk_edge (
   end
 
   // The minor edge, and the one that takes its place at the knee.
-  reg [14:0] second_c;     // signed, first column right of the edge
+  reg [14:0] second_c;     // signed, first column on or right of the edge
   reg [14:0] second_q;     // signed, whole columns a line, step of c
   reg [15:0] second_f;     // 2^-F column a line
   reg [16:0] second_rest;  // R - f, signed: below 0 the step carries
-  wire [16:0] minor2_rest = {1'b0, prim_minor2_r} - {1'b0, prim_minor2_f};
-  reg [14:0] minor_c;      // signed, first column right of the edge
+  wire [16:0] minor2_rest = {1'b0, prim_minor2_dist} - {1'b0, prim_minor2_f};
+  reg [14:0] minor_c;      // signed, first column on or right of the edge
   reg [14:0] minor_q;      // signed, whole columns a line, step of c
   reg [15:0] minor_f;      // 2^-F column a line
   reg [16:0] minor_rest;   // R - f, signed: below 0 the step carries
   wire has_upper = |prim_n1;
-  wire [16:0] minor1_rest = {1'b0, prim_minor1_r} - {1'b0, prim_minor1_f};
+  wire [16:0] minor1_rest = {1'b0, prim_minor1_dist} - {1'b0, prim_minor1_f};
   wire exchanged = exchanges && moves;
 
   always @(posedge clk) begin

@@ -35,7 +35,7 @@ module edgewalk_pixel (
   input  wire [21:0] span_g,         // UQ8.14 LSB, modular
   input  wire [21:0] span_b,         // UQ8.14 LSB, modular
   input  wire        span_fresh,     // first span of the triangle; increments are new
-  input  wire        span_fence,     // fragments in flight may lie on the same pixels
+  input  wire        span_fence,     // older fragments of the same pixel may be in flight
   input  wire [29:0] inc_z,          // UQ16.14 LSB, modular
   input  wire [21:0] inc_r,          // UQ8.14 LSB, modular
   input  wire [21:0] inc_g,          // UQ8.14 LSB, modular
@@ -49,7 +49,7 @@ module edgewalk_pixel (
   output reg   [7:0] frag_r,         // unorm8
   output reg   [7:0] frag_g,         // unorm8
   output reg   [7:0] frag_b,         // unorm8
-  output reg         frag_fence,     // fragments in flight may lie on the same pixel
+  output reg         frag_fence,     // older fragments of the same pixel may be in flight
   output reg         active,         // a span is in progress
   output wire        visible,        // the current pixel is on the screen
   output wire        advance,        // the output is free or taken: the unit advances
@@ -410,21 +410,21 @@ module edgewalk_pixel (
 
   // Output: each stage completes the bits of one more segment.
   reg [18:0] out0_addr;  // line * 2^10 + column
-  reg out0_fence;        // fragments in flight may lie on the same pixel
+  reg out0_fence;        // older fragments of the same pixel may be in flight
   reg out0_valid;
   reg [18:0] out1_addr;  // line * 2^10 + column
   reg out1_z;            // unorm16
   reg out1_r;            // unorm8
   reg out1_g;            // unorm8
   reg out1_b;            // unorm8
-  reg out1_fence;        // fragments in flight may lie on the same pixel
+  reg out1_fence;        // older fragments of the same pixel may be in flight
   reg out1_valid;
   reg [18:0] out2_addr;  // line * 2^10 + column
   reg [7:0] out2_z;      // unorm16
   reg [7:0] out2_r;      // unorm8
   reg [7:0] out2_g;      // unorm8
   reg [7:0] out2_b;      // unorm8
-  reg out2_fence;        // fragments in flight may lie on the same pixel
+  reg out2_fence;        // older fragments of the same pixel may be in flight
   reg out2_valid;
 
   always @(posedge clk) begin

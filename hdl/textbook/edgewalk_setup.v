@@ -48,16 +48,16 @@ module edgewalk_setup (
   output reg   [9:0] prim_n1,           // lines of the upper part
   output reg   [9:0] prim_n2,           // lines of the lower part
   output wire        prim_major_right,  // the major edge is the right one
-  output reg  [14:0] prim_major_c,      // signed, first column right of the edge
-  output reg  [15:0] prim_major_r,      // distance from the edge to that column, 2^-F column
+  output reg  [14:0] prim_major_c,      // signed, first column on or right of the edge
+  output reg  [15:0] prim_major_dist,   // distance from the edge to that column, 2^-F column
   output reg  [14:0] prim_major_q,      // signed, whole columns a line, step of c
   output reg  [15:0] prim_major_f,      // 2^-F column a line
-  output reg  [14:0] prim_minor1_c,     // signed, first column right of the edge
-  output reg  [15:0] prim_minor1_r,     // distance from the edge to that column, 2^-F column
+  output reg  [14:0] prim_minor1_c,     // signed, first column on or right of the edge
+  output reg  [15:0] prim_minor1_dist,  // distance from the edge to that column, 2^-F column
   output reg  [14:0] prim_minor1_q,     // signed, whole columns a line, step of c
   output reg  [15:0] prim_minor1_f,     // 2^-F column a line
-  output reg  [14:0] prim_minor2_c,     // signed, first column right of the edge
-  output reg  [15:0] prim_minor2_r,     // distance from the edge to that column, 2^-F column
+  output reg  [14:0] prim_minor2_c,     // signed, first column on or right of the edge
+  output reg  [15:0] prim_minor2_dist,  // distance from the edge to that column, 2^-F column
   output reg  [14:0] prim_minor2_q,     // signed, whole columns a line, step of c
   output reg  [15:0] prim_minor2_f,     // 2^-F column a line
   output reg  [29:0] prim_z_start_a,    // UQ16.14 LSB, modular, value on the left edge, first line of part 1
@@ -141,7 +141,7 @@ module edgewalk_setup (
   wire edges_end = last && (at == ROUND_COLUMNS) && (round == 2'd2);
   wire round_ends = last && (at == ROUND_B) && !(round == 2'd3);
   wire waits = (edges_end || round_ends) && !area_known;  // for the area or its scale
-  wire goes = works && !waits && !gives_up;  // the operation is done
+  wire goes = works && !waits && !gives_up;  // a step of the operation is done in this clock
   wire ends = goes && last;                  // it ends
   wire leaves = ends && advance;
   wire channels_end = (at == ROUND_B) && (round == 2'd3);
@@ -806,7 +806,7 @@ module edgewalk_setup (
   always @(posedge clk) begin
     if (ends_whole && (at_whole == DOUBLE_COLUMNS) && (round_whole == 2'd0)) begin
       prim_major_c <= -inverse_2[30:16];
-      prim_major_r <= inverse_2[15:0];
+      prim_major_dist <= inverse_2[15:0];
     end
   end
 
@@ -826,7 +826,7 @@ module edgewalk_setup (
   always @(posedge clk) begin
     if (ends_whole && (at_whole == DOUBLE_COLUMNS) && (round_whole == 2'd1)) begin
       prim_minor1_c <= (|prim_n1) ? -inverse_3[30:16] : 15'd0;
-      prim_minor1_r <= (|prim_n1) ? inverse_3[15:0] : 16'd0;
+      prim_minor1_dist <= (|prim_n1) ? inverse_3[15:0] : 16'd0;
     end
   end
 
@@ -846,7 +846,7 @@ module edgewalk_setup (
   always @(posedge clk) begin
     if (ends_whole && (at_whole == DOUBLE_COLUMNS) && (round_whole == 2'd2)) begin
       prim_minor2_c <= (|prim_n2) ? -inverse_4[30:16] : 15'd0;
-      prim_minor2_r <= (|prim_n2) ? inverse_4[15:0] : 16'd0;
+      prim_minor2_dist <= (|prim_n2) ? inverse_4[15:0] : 16'd0;
     end
   end
 

@@ -7,7 +7,7 @@
 //                        └────────── inc ──────────┘             └─rd / data─ depth memory
 //
 // A link ─> has valid and ready: a token moves in a cycle where both are high. valid never waits for ready.
-// Values below the links are stable while their tokens are offered. One clock; rst is synchronous, active high.
+// A value drawn without valid is held until its reader has loaded it. One clock; rst is synchronous, active high.
 // activity is the single cause of the cycle: 0 idle 1 draw 2 offscreen 3 hazard 4 queue 5 memory 6 edge 7 setup 8 flush.
 // PIXEL stalls in every cause but draw and offscreen.
 
@@ -49,17 +49,17 @@ module edgewalk (
   wire [7:0] u_setup_prim_n2;
   wire u_setup_prim_major_right;
   wire [9:0] u_setup_prim_major_c;
-  wire [11:0] u_setup_prim_major_r;
+  wire [11:0] u_setup_prim_major_dist;
   wire [9:0] u_setup_prim_major_q;
   wire [11:0] u_setup_prim_major_f;
   wire [11:0] u_setup_prim_major_m;
   wire [9:0] u_setup_prim_minor1_c;
-  wire [11:0] u_setup_prim_minor1_r;
+  wire [11:0] u_setup_prim_minor1_dist;
   wire [9:0] u_setup_prim_minor1_q;
   wire [11:0] u_setup_prim_minor1_f;
   wire [11:0] u_setup_prim_minor1_m;
   wire [9:0] u_setup_prim_minor2_c;
-  wire [11:0] u_setup_prim_minor2_r;
+  wire [11:0] u_setup_prim_minor2_dist;
   wire [9:0] u_setup_prim_minor2_q;
   wire [11:0] u_setup_prim_minor2_f;
   wire [11:0] u_setup_prim_minor2_m;
@@ -118,17 +118,17 @@ module edgewalk (
     .prim_n2          (u_setup_prim_n2),
     .prim_major_right (u_setup_prim_major_right),
     .prim_major_c     (u_setup_prim_major_c),
-    .prim_major_r     (u_setup_prim_major_r),
+    .prim_major_dist  (u_setup_prim_major_dist),
     .prim_major_q     (u_setup_prim_major_q),
     .prim_major_f     (u_setup_prim_major_f),
     .prim_major_m     (u_setup_prim_major_m),
     .prim_minor1_c    (u_setup_prim_minor1_c),
-    .prim_minor1_r    (u_setup_prim_minor1_r),
+    .prim_minor1_dist (u_setup_prim_minor1_dist),
     .prim_minor1_q    (u_setup_prim_minor1_q),
     .prim_minor1_f    (u_setup_prim_minor1_f),
     .prim_minor1_m    (u_setup_prim_minor1_m),
     .prim_minor2_c    (u_setup_prim_minor2_c),
-    .prim_minor2_r    (u_setup_prim_minor2_r),
+    .prim_minor2_dist (u_setup_prim_minor2_dist),
     .prim_minor2_q    (u_setup_prim_minor2_q),
     .prim_minor2_f    (u_setup_prim_minor2_f),
     .prim_minor2_m    (u_setup_prim_minor2_m),
@@ -207,17 +207,17 @@ module edgewalk (
     .prim_n2          (u_setup_prim_n2),
     .prim_major_right (u_setup_prim_major_right),
     .prim_major_c     (u_setup_prim_major_c),
-    .prim_major_r     (u_setup_prim_major_r),
+    .prim_major_dist  (u_setup_prim_major_dist),
     .prim_major_q     (u_setup_prim_major_q),
     .prim_major_f     (u_setup_prim_major_f),
     .prim_major_m     (u_setup_prim_major_m),
     .prim_minor1_c    (u_setup_prim_minor1_c),
-    .prim_minor1_r    (u_setup_prim_minor1_r),
+    .prim_minor1_dist (u_setup_prim_minor1_dist),
     .prim_minor1_q    (u_setup_prim_minor1_q),
     .prim_minor1_f    (u_setup_prim_minor1_f),
     .prim_minor1_m    (u_setup_prim_minor1_m),
     .prim_minor2_c    (u_setup_prim_minor2_c),
-    .prim_minor2_r    (u_setup_prim_minor2_r),
+    .prim_minor2_dist (u_setup_prim_minor2_dist),
     .prim_minor2_q    (u_setup_prim_minor2_q),
     .prim_minor2_f    (u_setup_prim_minor2_f),
     .prim_minor2_m    (u_setup_prim_minor2_m),

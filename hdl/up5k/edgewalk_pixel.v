@@ -30,7 +30,7 @@ module edgewalk_pixel (
   input  wire [14:0] span_g,         // UQ5.10 LSB, modular
   input  wire [14:0] span_b,         // UQ5.10 LSB, modular
   input  wire        span_fresh,     // first span of the triangle; increments are new
-  input  wire        span_fence,     // fragments in flight may lie on the same pixels
+  input  wire        span_fence,     // older fragments of the same pixel may be in flight
   input  wire [25:0] inc_z,          // UQ16.10 LSB, modular
   input  wire [14:0] inc_r,          // UQ5.10 LSB, modular
   input  wire [14:0] inc_g,          // UQ5.10 LSB, modular
@@ -44,7 +44,7 @@ module edgewalk_pixel (
   output reg   [4:0] frag_r,         // unorm5
   output reg   [4:0] frag_g,         // unorm5
   output reg   [4:0] frag_b,         // unorm5
-  output reg         frag_fence,     // fragments in flight may lie on the same pixel
+  output reg         frag_fence,     // older fragments of the same pixel may be in flight
   output reg         active,         // a span is in progress
   output wire        visible,        // the current pixel is on the screen
   output wire        advance,        // the output is free or taken: the unit advances
@@ -170,7 +170,7 @@ module edgewalk_pixel (
     if (advance && add && (slot == 1'b1)) b_value <= adder1_sum;
   end
 
-  // Output: each stage completes the bits of one more segment.
+  // Output register: loads a fragment while PIXEL advances.
   always @(posedge clk) begin
     if (advance) begin
       frag_addr <= {y, x[7:0]};

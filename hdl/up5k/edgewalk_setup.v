@@ -28,18 +28,18 @@ module edgewalk_setup (
   output reg   [7:0] prim_n1,           // lines of the upper part
   output reg   [7:0] prim_n2,           // lines of the lower part
   output reg         prim_major_right,  // the major edge is the right one
-  output reg   [9:0] prim_major_c,      // signed, first column right of the edge
-  output reg  [11:0] prim_major_r,      // distance from the edge to that column, 1/M column
+  output reg   [9:0] prim_major_c,      // signed, first column on or right of the edge
+  output reg  [11:0] prim_major_dist,   // distance from the edge to that column, 1/M column
   output reg   [9:0] prim_major_q,      // signed, whole columns a line, step of c
   output reg  [11:0] prim_major_f,      // 1/M column a line
   output reg  [11:0] prim_major_m,      // modulus of r and f: the edge's height, 1/P line
-  output reg   [9:0] prim_minor1_c,     // signed, first column right of the edge
-  output reg  [11:0] prim_minor1_r,     // distance from the edge to that column, 1/M column
+  output reg   [9:0] prim_minor1_c,     // signed, first column on or right of the edge
+  output reg  [11:0] prim_minor1_dist,  // distance from the edge to that column, 1/M column
   output reg   [9:0] prim_minor1_q,     // signed, whole columns a line, step of c
   output reg  [11:0] prim_minor1_f,     // 1/M column a line
   output reg  [11:0] prim_minor1_m,     // modulus of r and f: the edge's height, 1/P line
-  output reg   [9:0] prim_minor2_c,     // signed, first column right of the edge
-  output reg  [11:0] prim_minor2_r,     // distance from the edge to that column, 1/M column
+  output reg   [9:0] prim_minor2_c,     // signed, first column on or right of the edge
+  output reg  [11:0] prim_minor2_dist,  // distance from the edge to that column, 1/M column
   output reg   [9:0] prim_minor2_q,     // signed, whole columns a line, step of c
   output reg  [11:0] prim_minor2_f,     // 1/M column a line
   output reg  [11:0] prim_minor2_m,     // modulus of r and f: the edge's height, 1/P line
@@ -703,7 +703,7 @@ module edgewalk_setup (
   end
 
   always @(posedge clk) begin
-    if ((result_given == 4'd6) && (number_given == 3'd0)) prim_major_r <= lane0_rest[14:3];
+    if ((result_given == 4'd6) && (number_given == 3'd0)) prim_major_dist <= lane0_rest[14:3];
   end
 
   always @(posedge clk) begin
@@ -727,8 +727,8 @@ module edgewalk_setup (
   end
 
   always @(posedge clk) begin
-    if ((result_given == 4'd6) && (number_given == 3'd1)) prim_minor1_r <= lane0_rest[14:3];
-    if ((result_given == 4'd6) && (number_given == 3'd1) && !upper) prim_minor1_r <= 12'd0;
+    if ((result_given == 4'd6) && (number_given == 3'd1)) prim_minor1_dist <= lane0_rest[14:3];
+    if ((result_given == 4'd6) && (number_given == 3'd1) && !upper) prim_minor1_dist <= 12'd0;
   end
 
   always @(posedge clk) begin
@@ -753,8 +753,8 @@ module edgewalk_setup (
   end
 
   always @(posedge clk) begin
-    if ((result_given == 4'd6) && (number_given == 3'd2)) prim_minor2_r <= lane0_rest[14:3];
-    if ((result_given == 4'd6) && (number_given == 3'd2) && !lower) prim_minor2_r <= 12'd0;
+    if ((result_given == 4'd6) && (number_given == 3'd2)) prim_minor2_dist <= lane0_rest[14:3];
+    if ((result_given == 4'd6) && (number_given == 3'd2) && !lower) prim_minor2_dist <= 12'd0;
   end
 
   always @(posedge clk) begin

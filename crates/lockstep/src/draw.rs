@@ -112,27 +112,26 @@ pub fn render_on(
     Ok(drawn.frame(plan, passes))
 }
 
-/// Runs the machine as it is, without other tags, as [`render_rtl`] does; gives the counters and no picture, which on a large screen takes
-/// much memory. `watch` sees the netlist in every cycle, before the clock edge, and ends the run by returning false.
+/// Runs the machine as it is, without other tags, as [`render_rtl_passes`] does; gives the counters and no picture, which on a large
+/// screen takes much memory. `watch` sees the netlist in every cycle, before the clock edge, and ends the run by returning false.
 ///
 /// # Errors
 /// Triangles whose vertices were made for another machine.
 pub fn render_rtl_with(
     plan: &Plan,
     triangles: impl IntoIterator<Item = [PortVertex; 3]>,
-    state: DrawState,
-    stalls: StallKind,
+    passes: &[Pass],
+    shading: &Shading,
     mut watch: impl FnMut(&mut Simulator) -> bool,
 ) -> Result<Counters, DrawError> {
     let mut device =
         NetlistDevice::new(&*netlist(plan, Unit::MACHINE)?, &Interface::new(plan, Unit::MACHINE))?;
-    let drawn =
-        run(plan, plan, triangles, &[Pass::all(state)], (&[], &Shading::default()), stalls, |ports| {
-            device.settle(ports);
-            let more = watch(device.simulator());
-            device.clock();
-            more
-        })?;
+    let drawn = run(plan, plan, triangles, passes, (&[], shading), StallKind::None, |ports| {
+        device.settle(ports);
+        let more = watch(device.simulator());
+        device.clock();
+        more
+    })?;
     Ok(drawn.counters())
 }
 
@@ -276,6 +275,10 @@ struct Picture {
     /// The write of the pixel; with BLEND that of its colours, and the depth has its own.
     write: Writes,
     depth_write: Option<Writes>,
+    /// With BLEND the reads of colours.
+    crd: Option<Link>,
+    /// Reads of the memories that the host alone writes.
+    word_reads: Vec<Link>,
     tag: Option<usize>,
     /// With SHADOW the field of the write that says whether it is lit.
     lit_field: Option<usize>,
@@ -329,6 +332,13 @@ impl Writes {
         Writes { address: place("addr").expect("a write declares it"), stored, link }
     }
 
+    /// A depth is written in this cycle.
+    fn stores_depth(&self, ports: &PortValues) -> bool {
+        let mut depths = self.stored.iter().filter(|stored| stored.channel == 0);
+        self.link.fires(ports)
+            && depths.any(|stored| stored.enable.is_none_or(|enable| self.link.token(ports)[enable] == 1))
+    }
+
     /// Stores what is written in this cycle; where.
     fn store(&self, ports: &PortValues, memory: &mut [Vec<u32>]) -> Option<usize> {
         let write = self.link.fires(ports).then(|| self.link.token(ports))?;
@@ -363,6 +373,8 @@ impl Picture {
             lit_field: write.place("lit"),
             write: Writes::new(plan, write),
             depth_write: find("zwr").map(|link| Writes::new(plan, link)),
+            crd: find("crd"),
+            word_reads: plan.word_memories().iter().map(|(_, memory)| link(memory.read.name)).collect(),
             activity: status("activity"),
             idle: status("idle"),
             stored: cleared.iter().map(|word| vec![*word; words]).collect(),
@@ -421,6 +433,12 @@ impl Picture {
             self.coverage[*address as usize] += 1;
             counters.fragments += 1;
         }
+        counters.color_reads += u64::from(self.crd.as_ref().is_some_and(|link| link.fires(ports)));
+        for (reads, link) in counters.word_reads.iter_mut().zip(&self.word_reads) {
+            *reads += u64::from(link.fires(ports));
+        }
+        let depths = self.depth_write.as_ref().unwrap_or(&self.write);
+        counters.depth_writes += u64::from(depths.stores_depth(ports));
         if let Some(depths) = &self.depth_write {
             self.written |= depths.store(ports, &mut self.stored).is_some();
         }

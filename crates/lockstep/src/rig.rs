@@ -121,6 +121,13 @@ impl<'a> Rig<'a> {
         Rig { triangles, ..self }
     }
 
+    /// Asks the source again where it had no token left: one that is fed during the run may have one now.
+    pub fn ask_again(&mut self) {
+        if self.next.is_none() {
+            self.next = self.source.next();
+        }
+    }
+
     /// The cycle that [`Rig::drive`] is for, from 0.
     #[must_use]
     pub fn cycle(&self) -> u64 {

@@ -142,7 +142,8 @@ fn a_watcher_sees_every_cycle_and_may_end_the_run() {
         assert!(simulator.get("activity").is_ok());
         seen < 100
     };
-    let counters = render_rtl_with(&plan, triangles, DrawState::default(), StallKind::None, watch);
+    let passes = [Pass::all(DrawState::default())];
+    let counters = render_rtl_with(&plan, triangles, &passes, &Shading::default(), watch);
     assert_eq!(counters.expect("its own triangles").cycles, 100);
     assert_eq!(seen, 100);
 }

@@ -4,7 +4,7 @@ use crate::common::fail::{checked, checked_compiled};
 use crate::common::machines::random_poly;
 use crate::common::polygons::{Triangle, primitives};
 use edgewalk_lockstep::{Case, Checked, Interface, Triangles, Unit};
-use edgewalk_machine::{Lines, Machine, Plan, PortVertex, Role, Sides, Window};
+use edgewalk_machine::{EdgeKind, Lines, Machine, Plan, PortVertex, Role, Sides, Values, Window};
 use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64Mcg;
 
@@ -100,7 +100,12 @@ fn corners(plan: &Plan) -> Vec<(&'static str, Vec<Triangle>)> {
 fn the_corners_of_poly_are_met_alike() {
     let mut all = Checked::default();
     let mut cases = 0;
-    for keys in [&[][..], &[("edge.kind", "slope"), ("edge.fraction_bits", "12"), ("setup.lanes", "1")]] {
+    let kinds = [
+        &[][..],
+        &[("edge.kind", "slope"), ("edge.fraction_bits", "12"), ("setup.lanes", "1")],
+        &[("edge.kind", "slope"), ("polygon.values", "bilinear")],
+    ];
+    for keys in kinds {
         let plan = small(keys);
         let port = Triangles::new(&plan);
         let corners = corners(&plan);
@@ -119,25 +124,26 @@ fn the_corners_of_poly_are_met_alike() {
     }
     println!("{cases} cases, {} tokens, {} values of ports compared", all.tokens, all.compared);
     let poly = Unit::named("poly").expect("declared");
-    let plan = small(&[]);
+    let plan = small(kinds[2]);
     let declared: Vec<&str> = poly.events(&plan).iter().map(|event| event.name).collect();
     let declared = declared.into_iter().chain(["window_top", "window_bottom", "line_flat", "line_steep"]);
     let counts = all.events.counts();
     let unmet: Vec<&str> =
         declared.filter(|name| counts.iter().any(|(event, count)| event == name && *count == 0)).collect();
     assert_eq!(unmet, [""; 0], "not met");
-    assert_eq!(cases, 2 * 3 * (corners(&plan).len() + 1));
+    assert_eq!(cases, kinds.len() * 3 * (corners(&plan).len() + 1));
 }
 
 /// A reset in each cycle of a polygon's way through the machine, in turn.
 #[test]
 fn a_reset_is_alike_in_each_state_of_poly() {
-    let plan = small(&[]);
-    let port = Triangles::new(&plan);
-    let tokens: Vec<Triangle> = corners(&plan).into_iter().take(8).flat_map(|(_, tokens)| tokens).collect();
-    let tokens: Vec<_> = tokens.iter().map(|token| port.pack(token, 0)).collect();
     let mut compared = 0;
     for first in 0..40 {
+        let bilinear = &[("edge.kind", "slope"), ("polygon.values", "bilinear")];
+        let plan = small(if first % 2 == 0 { &[] } else { bilinear });
+        let port = Triangles::new(&plan);
+        let tokens = corners(&plan).into_iter().take(8).flat_map(|(_, tokens)| tokens);
+        let tokens: Vec<_> = tokens.map(|token| port.pack(&token, 0)).collect();
         let mut case = Case { seed: first, disturbed: 5, ..Case::new(&plan, Unit::MACHINE) };
         case.resets = (0..60).map(|k| 20 + first + 41 * k).collect();
         case.tokens.clone_from(&tokens);
@@ -195,8 +201,14 @@ fn setup_and_poly_alone_are_alike() {
     let mut rng = Pcg64Mcg::seed_from_u64(43);
     let mut all = Checked::default();
     for lanes in [1, 2, 4] {
-        for (name, count) in [("setup", 150), ("poly", 60)] {
-            let with = |m: &mut Machine| (m.polygon.edges, m.lanes, m.tag_bits) = (16, lanes, 4);
+        let kinds = [(EdgeKind::Exact, Values::Plane), (EdgeKind::Slope, Values::Bilinear)];
+        for (kind, (name, count)) in
+            kinds.into_iter().flat_map(|kind| [("setup", 150), ("poly", 60)].map(|unit| (kind, unit)))
+        {
+            let with = |m: &mut Machine| {
+                (m.polygon.edges, m.lanes, m.tag_bits) = (16, lanes, 4);
+                (m.edge_kind, m.polygon.values) = kind;
+            };
             let plan = Machine::default().with(with).plan().expect("can be built");
             let unit = Unit::named(name).expect("declared");
             let mut case = Case { seed: 3, cycles: 20_000, disturbed: 10, ..Case::new(&plan, unit) };

@@ -16,7 +16,7 @@ fn machine(keys: &[(&str, &str)], lanes: u32) -> Plan {
 }
 
 /// Every port in every cycle of SETUP, and of EDGE behind it, with 1, 2 and 4 lanes: default formats, a small screen without sub-pixels, channels of several
-/// lengths in several rounds, a machine that draws its map, and one that takes lines.
+/// lengths in several rounds, a machine that draws its map, one that takes lines, slope edges, and textbook fill.
 #[test]
 fn sequenced_setup_and_edge_equal_their_models() {
     const CYCLES: u64 = 60_000;
@@ -36,12 +36,15 @@ fn sequenced_setup_and_edge_equal_their_models() {
     ];
     let lines =
         [("polygon.lines", "yes"), ("screen.width", "40"), ("screen.height", "30"), ("memory.tag_bits", "3")];
+    let slope = [("edge.kind", "slope"), ("edge.fraction_bits", "13")];
+    let textbook = [("edge.fill", "textbook"), ("screen.subpixel_bits", "0")];
+    let both = [slope, textbook].concat();
     let map = [("shadow.light", "parallel"), ("shadow.own_pass", "yes"), ("shadow.size", "40")];
     let mut rng = Pcg64Mcg::seed_from_u64(31);
     let mut all = Checked::default();
     let mut machines = 0;
     for lanes in [1, 2, 4] {
-        for keys in [&[][..], &small, &several, &map, &lines] {
+        for keys in [&[][..], &small, &several, &map, &lines, &slope, &textbook, &both] {
             let plan = machine(keys, lanes);
             for unit in Unit::known().filter(|unit| ["setup", "edge"].contains(&unit.name())) {
                 let mut case = Case { seed: 5, cycles: CYCLES, disturbed: 10, ..Case::new(&plan, unit) };
@@ -54,7 +57,7 @@ fn sequenced_setup_and_edge_equal_their_models() {
         }
     }
     println!("{machines} machines, {} tokens, {} values of ports compared", all.tokens, all.compared);
-    assert!(machines == 15 && all.tokens > 750);
+    assert!(machines == 24 && all.tokens > 1200);
 }
 
 /// The whole machine, its units compared inside, with stalls at the word port and behind, and resets in the midst of a triangle.

@@ -21,9 +21,11 @@ const TRIANGLES: u64 = 100;
 const DIRECTED: [&str; 5] =
     ["opaque_behind", "behind_opaque", "color_head_wait", "color_forward_queue", "color_forward_used"];
 
-/// What only BLEND, BUMP, SHADE, PROJECT and SHADOW alone meet for certain (`tests/units.rs`): triangles of one pixel, and of two materials, come too far
-/// apart, and few of their depths are a texel's, or quotients on an edge.
-const ALONE: [&str; 9] = [
+/// What only BLEND, BUMP, SHADE, PROJECT and SHADOW alone meet for certain (`tests/units.rs`), and LAMP on machines of its own
+/// (`whole_lamps`): triangles of one pixel, and of two materials, come too far apart, and few of their depths are a texel's, or
+/// quotients on an edge; few machines blend under interlock, and few have LAMP.
+const ALONE: [&str; 11] = [
+    "color_interlock_stall",
     "color_forward_entry",
     "color_forward_write",
     "material_change",
@@ -33,6 +35,7 @@ const ALONE: [&str; 9] = [
     "depth_to_end",
     "slope_lowest",
     "square_cut",
+    "lamp_read_stall",
 ];
 
 /// What SETUP meets with POLY alone.

@@ -20,9 +20,9 @@ pub enum Activity {
     Queue,
     /// The depth memory takes no read.
     Memory,
-    /// PIXEL waits for a span.
+    /// PIXEL has no span; a line or a span is on its way.
     Edge,
-    /// All wait for SETUP.
+    /// Nothing is on its way; SETUP works.
     Setup,
     /// The last fragments leave the pipeline.
     Flush,
@@ -110,8 +110,8 @@ impl Activity {
             "DEPTH waits for a pixel in flight",
             "the in-flight queue is full",
             "the depth memory takes no read",
-            "PIXEL waits for a span",
-            "all wait for SETUP",
+            "PIXEL has no span; a line or a span is on its way",
+            "nothing is on its way; SETUP works",
             "the last fragments leave the pipeline",
             "BLEND takes no fragment",
             "SHADOW takes no fragment",

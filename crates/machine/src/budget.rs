@@ -50,13 +50,22 @@ impl Machine {
         Screen { width: self.width, height: self.height, guard_columns: guard.saturating_add(beyond) }
     }
 
+    /// The budget of a fragment of this machine behind `steps` additions.
+    #[must_use]
+    pub fn budget_behind(&self, channel: &Channel, steps: Steps) -> ErrorBudget {
+        if self.polygon.is_bilinear() && ["r", "g", "b"].contains(&channel.name) {
+            return ErrorBudget::bilinear(channel.vertex_fraction, channel.fraction, steps, Dyadic::HALF);
+        }
+        channel.error_budget(steps)
+    }
+
     /// What holds for every fragment of this machine whose pixel lies inside its triangle, in a channel of it.
     ///
     /// # Errors
     /// Why outputs may wrap (bound 4): then no error is the largest.
     pub fn proved_budget(&self, channel: &Channel) -> Result<ErrorBudget, NoBound> {
         let additions = self.max_steps();
-        let budget = channel.error_budget(additions);
+        let budget = self.budget_behind(channel, additions);
         if self.fill == Fill::Textbook {
             Err(NoBound::Textbook)
         } else if budget.holds() {

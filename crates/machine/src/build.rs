@@ -100,6 +100,6 @@ mod tests {
             let machine = Machine::preset(name).expect("listed");
             assert!(machine.plan().is_ok(), "{name}");
         }
-        assert_eq!(PRESETS.len(), 7);
+        assert_eq!(PRESETS.len(), 8);
     }
 }

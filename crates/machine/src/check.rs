@@ -77,9 +77,6 @@ pub(crate) fn check(machine: &Machine, channels: &[Channel]) -> Result<(), Machi
             own.saturating_sub(channels.len() - MAX_CHANNELS).to_string(),
         ));
     }
-    if machine.setup_kind == SetupKind::Sequenced {
-        sequenced(machine)?;
-    }
     if machine.adders as usize > channels.len() {
         return Err(MachineError::rule(
             machine,
@@ -140,8 +137,24 @@ fn polygons(machine: &Machine) -> Result<(), MachineError> {
     } else if machine.setup_kind == SetupKind::Sequenced {
         refusal("the program of SETUP has no steps for polygons; POLY wants setup.kind = parallel")
     } else {
-        Ok(())
+        bilinear(machine)
     }
+}
+
+/// Colours along edges want remainders of one modulus, and no colours of another kind.
+fn bilinear(machine: &Machine) -> Result<(), MachineError> {
+    if !machine.polygon.is_bilinear() {
+        return Ok(());
+    }
+    if machine.edge_kind != EdgeKind::Slope {
+        let reason = "polygon.values = bilinear wants remainders of one modulus, as slope edges have them";
+        return Err(MachineError::rule(machine, "edge.kind", reason.to_owned(), "slope".to_owned()));
+    }
+    if machine.shade.is_there() {
+        let reason = "shading makes the colours at each pixel, and none would be seen of those of the edges";
+        return Err(MachineError::rule(machine, "polygon.values", reason.to_owned(), "plane".to_owned()));
+    }
+    Ok(())
 }
 
 /// A screen with sides of so many pixels, or a map that the machine draws.
@@ -252,21 +265,6 @@ fn positional(machine: &Machine) -> Result<(), MachineError> {
     if machine.shade.bumps() {
         let reason = "a relief wants shade.light = directional".to_owned();
         return Err(MachineError::rule(machine, "texture.bump", reason, "no".to_owned()));
-    }
-    Ok(())
-}
-
-/// What the program of SETUP serves.
-fn sequenced(machine: &Machine) -> Result<(), MachineError> {
-    let refused = |reason: &str| {
-        let reason = format!("its program has no steps for {reason}");
-        Err(MachineError::rule(machine, "setup.kind", reason, "parallel".to_owned()))
-    };
-    if machine.fill == Fill::Textbook {
-        return refused("edge.fill = textbook, only for exact");
-    }
-    if machine.edge_kind == EdgeKind::Slope {
-        return refused("edge.kind = slope, only for exact");
     }
     Ok(())
 }

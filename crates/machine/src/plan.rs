@@ -8,6 +8,9 @@ use crate::term::Term;
 use crate::widths::Widths;
 use std::ops::{Deref, Range};
 
+/// The places of red, green and blue among the channels of every machine.
+pub const COLOURS: Range<usize> = 1..4;
+
 /// A machine that can be built. Only [`Machine::plan`] makes one; the keys can be read through it, not
 /// changed.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
@@ -40,6 +43,13 @@ impl Plan {
     #[must_use]
     pub fn channel_place(&self, name: &str) -> Option<usize> {
         self.channels.iter().position(|channel| channel.name == name)
+    }
+
+    /// The channels whose values are planes, with their places among all: with `polygon.values = bilinear` all but the
+    /// colours.
+    pub fn planes(&self) -> impl Iterator<Item = (usize, &Channel)> {
+        let colours = if self.polygon.is_bilinear() { COLOURS } else { 0..0 };
+        self.channels.iter().enumerate().filter(move |(place, _)| !colours.contains(place))
     }
 
     /// The user's own channels, with their places among all.

@@ -12,11 +12,22 @@ pub enum Lines {
     Yes,
 }
 
+/// How colours run over a polygon.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Values {
+    /// A plane of each channel.
+    Plane,
+    /// Along the edges, and on a line from one edge to the other; all but colours by planes.
+    Bilinear,
+}
+
 /// What the port takes besides triangles.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Polygon {
     /// N: places of POLY's table of edges; 0: EDGE walks triangles, there is no POLY.
     pub edges: u32,
+    /// With POLY: how colours run over a polygon.
+    pub values: Values,
     /// Lines.
     pub lines: Lines,
 }
@@ -26,6 +37,12 @@ impl Polygon {
     #[must_use]
     pub fn is_there(&self) -> bool {
         self.edges > 0
+    }
+
+    /// POLY takes colours along the edges.
+    #[must_use]
+    pub fn is_bilinear(&self) -> bool {
+        self.is_there() && self.values == Values::Bilinear
     }
 
     /// The port takes lines.
@@ -38,7 +55,7 @@ impl Polygon {
 /// Triangles only.
 impl Default for Polygon {
     fn default() -> Self {
-        Polygon { edges: 0, lines: Lines::No }
+        Polygon { edges: 0, values: Values::Plane, lines: Lines::No }
     }
 }
 
@@ -51,6 +68,16 @@ pub const KEYS: &[Key] = &[
             OneOf(&[0, 8, 16, 32, 64, 128]),
             "edges that POLY's table holds, so that the port takes polygons; 0: EDGE, triangles only",
             polygon.edges
+        )
+    },
+    Key {
+        absent: Some(Values::Plane as u32),
+        ..word!(
+            "polygon.values",
+            Values { "plane" => Plane, "bilinear" => Bilinear },
+            "colours of a polygon: a plane, or along its edges and then from edge to edge (bilinear)",
+            polygon.values,
+            if |m| m.polygon.is_there()
         )
     },
     Key {

@@ -2,12 +2,17 @@
 
 use crate::channel::Precision;
 use crate::machine::{EdgeKind, Fill, Hazard, Machine, SetupKind};
+use crate::polygon::Values;
 
 /// Names of the presets, for `--machine` and its hints.
 pub const PRESETS: &[(&str, &str)] = &[
     ("default", "640x480, exact fill, 24-bit depth, 8-bit colour, one pixel a clock"),
     ("textbook", "chapter 7: integer vertices, inclusive spans, slopes, one shared adder pipeline"),
     ("polygon", "the default machine with POLY in EDGE's place: polygons of up to 64 edges"),
+    (
+        "bilinear",
+        "the polygon machine with slope edges, and colours along them: from edge to edge instead of planes",
+    ),
     (
         "small",
         "240x160, 16-bit depth, 5-bit colour, one pixel a clock, one lane: its cells fit an iCE40 UP5K, its memories do not",
@@ -45,6 +50,10 @@ impl Machine {
                 ..Machine::default()
             }),
             "polygon" => Some(Machine::default().with(|machine| machine.polygon.edges = 64)),
+            "bilinear" => Some(Machine::default().with(|machine| {
+                machine.edge_kind = EdgeKind::Slope;
+                (machine.polygon.edges, machine.polygon.values) = (64, Values::Bilinear);
+            })),
             "small" => Some(small()),
             "ecp5" => Some(narrow()),
             "hx8k" => Some(Machine { setup_kind: SetupKind::Sequenced, ..Machine::default() }),

@@ -47,6 +47,7 @@ impl Sides {
     }
 
     /// The side from the vertex with this place to the next one counts.
+    #[inline]
     #[must_use]
     pub fn has(self, side: usize) -> bool {
         self.0 >> side & 1 == 1
@@ -55,6 +56,7 @@ impl Sides {
 
 impl Role {
     /// The role of three vertices, as the port has it.
+    #[inline]
     #[must_use]
     pub fn of(vertices: &[PortVertex; 3]) -> Role {
         let (kind, sides) = (vertices[0].own & 3, Sides((vertices[1].own >> 13) as u8));
@@ -99,6 +101,7 @@ impl Role {
     }
 
     /// The last token of what is drawn together: all but [`Role::Edges`].
+    #[inline]
     #[must_use]
     pub fn ends(self) -> bool {
         !matches!(self, Role::Edges(_))
@@ -128,9 +131,10 @@ const LINES: u32 = (1 << 14) - 1;
 
 impl Window {
     /// The window of three vertices, as the port has it.
+    #[inline]
     #[must_use]
     pub fn of(vertices: &[PortVertex; 3]) -> Window {
-        let [a, b, c] = vertices.map(|vertex| u32::from(vertex.own));
+        let [a, b, c] = vertices.each_ref().map(|vertex| u32::from(vertex.own));
         Window { x0: a >> 3, y0: b & ((1 << 13) - 1), y1: c ^ LINES }
     }
 }

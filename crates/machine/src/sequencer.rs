@@ -6,7 +6,7 @@
 mod parse;
 pub mod word;
 
-use crate::plan::Plan;
+use crate::{EdgeKind, Fill, Plan};
 use std::collections::BTreeMap;
 use word::Word;
 
@@ -32,7 +32,12 @@ impl Program {
     /// Never: a test reads the listing for each set of features.
     #[must_use]
     pub fn of(plan: &Plan) -> Program {
-        let features = [("beside", edges_are_beside(plan)), ("lines", plan.polygon.has_lines())];
+        let features = [
+            ("beside", edges_are_beside(plan)),
+            ("lines", plan.polygon.has_lines()),
+            ("slope", plan.edge_kind == EdgeKind::Slope),
+            ("textbook", plan.fill == Fill::Textbook),
+        ];
         let features: Vec<&str> = features.into_iter().filter(|(_, is)| *is).map(|(name, _)| name).collect();
         let parsed = parse::parse(LISTING, &features).expect("the listing has no error");
         Program { words: parsed.words, rows: parsed.rows, labels: parsed.labels }
@@ -79,6 +84,16 @@ mod tests {
             let program = Program::of(&machine.plan().expect("can be built"));
             assert_eq!(program.words.len(), without + 1);
             assert_eq!([program.row("height"), program.row("width")], [4, 6], "a flat line exchanges them");
+            machine.polygon.lines = Lines::No;
+            machine.edge_kind = EdgeKind::Slope;
+            let slope = Program::of(&machine.plan().expect("can be built")).words.len();
+            (machine.fill, machine.subpixel_bits) = (Fill::Textbook, 0);
+            let textbook = Program::of(&machine.plan().expect("can be built")).words.len();
+            assert!(without != slope && slope != textbook, "{without}, {slope}, {textbook} words");
+            assert!(
+                (200..=512).contains(&slope) && (200..=512).contains(&textbook),
+                "{slope}, {textbook} words"
+            );
             assert!((200..=512).contains(&program.words.len()), "{} words", program.words.len());
             assert!(program.rows.values().all(|row| *row <= NAMED_ROWS - 8));
             let places = program.words.iter().filter_map(|word| word.control.place());

@@ -143,7 +143,7 @@ mod tests {
     }
 
     /// In one of these every key means something and can be set.
-    fn machines() -> [Machine; 4] {
+    fn machines() -> [Machine; 5] {
         let plain = Shade { kind: ShadeKind::Phong, colour: ShadeColour::Multiply, ..Shade::default() };
         let relief = Shade { texture: Texture::Nearest, bump: Bump::Yes, ..plain };
         let with = |extra, shade, light, kind| Machine {
@@ -159,6 +159,7 @@ mod tests {
             with(0, plain, ShadowLight::Perspective, BlendKind::Constant),
             with(4, relief, ShadowLight::None, BlendKind::Constant),
             Machine { dither: Dither { bits: 5, screen_door: ScreenDoor::Yes }, ..Machine::default() },
+            Machine::preset("bilinear").expect("listed"),
         ]
     }
 
@@ -185,7 +186,7 @@ mod tests {
     #[test]
     fn every_setting_survives_the_file_and_changes_the_hash() {
         let mut seen: std::collections::HashSet<String> = machines().iter().map(Machine::hash).collect();
-        assert_eq!(seen.len(), 4);
+        assert_eq!(seen.len(), 5);
         for key in KEYS {
             let used = machines().into_iter().filter(|machine| (key.used)(machine));
             let other = used.flat_map(|machine| others(machine, key)).next();
@@ -193,7 +194,7 @@ mod tests {
             assert!(seen.insert(other.hash()), "{} does not reach the hash", key.name);
             assert_eq!(Machine::from_toml(&other.to_toml()), Ok(other), "{}", key.name);
         }
-        assert_eq!(seen.len(), 4 + KEYS.len());
+        assert_eq!(seen.len(), 5 + KEYS.len());
     }
 
     /// Keys of units that a machine has not stay out: so pictures and files of earlier days keep its name.
@@ -235,7 +236,7 @@ mod tests {
             ),
             (
                 "preset = \"defalt\"\n",
-                "line 1: unknown preset defalt; permitted: default, textbook, polygon, small, ecp5, hx8k, up5k; nearest: default",
+                "line 1: unknown preset defalt; permitted: default, textbook, polygon, bilinear, small, ecp5, hx8k, up5k; nearest: default",
             ),
             (
                 "[formats]\nz_vertex = 16\n",

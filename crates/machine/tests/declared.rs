@@ -289,16 +289,3 @@ fn sequenced_setup_takes_a_triangle_word_by_word() {
     let ports: Vec<(&str, u32)> = link.fields.iter().map(|port| (port.name.as_str(), port.width())).collect();
     assert_eq!((link.name, ports), ("in", vec![("data", 28), ("tag", 5)]));
 }
-
-#[test]
-fn sequenced_setup_refuses_what_its_program_lacks() {
-    let cases = [("edge.fill", "textbook", "exact", "0"), ("edge.kind", "slope", "exact", "0")];
-    for (key, value, permitted, subpixels) in cases {
-        let keys = [("setup.kind", "sequenced"), ("screen.subpixel_bits", subpixels), (key, value)];
-        let error = machine(&keys).plan().expect_err(key).to_string();
-        let wanted = format!(
-            "setup.kind = sequenced cannot be built: its program has no steps for {key} = {value}, only for {permitted}; try setup.kind = parallel"
-        );
-        assert_eq!(error, wanted);
-    }
-}

@@ -10,7 +10,7 @@
 
 use crate::served::Served;
 use crate::tokens::{ColorWrite, FEW, MAX_CHANNELS, OutputWords};
-use crate::waits::Waits;
+use crate::waits::{PageCounts, Waits};
 use edgewalk_machine::Plan;
 
 /// State of the memory.
@@ -75,6 +75,12 @@ impl<const C: usize> ColorMemory<C> {
             1..FEW => color(i),
             _ => own[i - FEW],
         })
+    }
+
+    /// What its pages did so far.
+    #[must_use]
+    pub fn pages(&self) -> PageCounts {
+        self.served.pages()
     }
 
     /// Clock edge: the read that fired, whether the word was taken, the write that fired.

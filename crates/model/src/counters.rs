@@ -1,6 +1,8 @@
 //! What every cycle was spent on, and what passed through the units.
 
 use crate::setup::SetupClocks;
+use crate::waits::PageCounts;
+use crate::word_memory::MEMORIES;
 use edgewalk_machine::Activity;
 
 /// Counts what may happen in every cycle: nobody waits for 2^64, so nothing is checked.
@@ -32,7 +34,20 @@ pub struct Counters {
     pub queued_spans: u64,
     /// Fragments between their read and their compare, summed over the cycles.
     pub inflight: u64,
+    /// Writes that store a depth.
+    pub depth_writes: u64,
+    /// With BLEND: reads of the colour memory.
+    pub color_reads: u64,
+    /// Reads of the memories that the host alone writes, in the order of
+    /// [`Plan::word_memories`](edgewalk_machine::Plan::word_memories).
+    pub word_reads: [u64; MEMORIES],
+    /// What the pages of dynamic memories did: depth, colour, then the memories that the host alone writes. A run with its memories
+    /// has them, a [`Model`](crate::Model) by itself does not.
+    pub pages: [PageCounts; PACED],
 }
+
+/// Memories that may make the machine wait.
+pub const PACED: usize = 2 + MEMORIES;
 
 impl Counters {
     /// A cycle went by.
@@ -70,6 +85,10 @@ impl Counters {
             setup_clocks: std::array::from_fn(|i| self.setup_clocks[i] + after.setup_clocks[i]),
             queued_spans: self.queued_spans + after.queued_spans,
             inflight: self.inflight + after.inflight,
+            depth_writes: self.depth_writes + after.depth_writes,
+            color_reads: self.color_reads + after.color_reads,
+            word_reads: std::array::from_fn(|i| self.word_reads[i] + after.word_reads[i]),
+            pages: std::array::from_fn(|i| self.pages[i].and(after.pages[i])),
         }
     }
 
@@ -87,6 +106,10 @@ impl Counters {
             setup_clocks: std::array::from_fn(|i| self.setup_clocks[i] - before.setup_clocks[i]),
             queued_spans: self.queued_spans - before.queued_spans,
             inflight: self.inflight - before.inflight,
+            depth_writes: self.depth_writes - before.depth_writes,
+            color_reads: self.color_reads - before.color_reads,
+            word_reads: std::array::from_fn(|i| self.word_reads[i] - before.word_reads[i]),
+            pages: std::array::from_fn(|i| self.pages[i].since(before.pages[i])),
         }
     }
 

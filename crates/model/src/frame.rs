@@ -178,12 +178,12 @@ fn draw<const C: usize>(
     for step in steps(plan, passes, shading) {
         if let Step::State(state) = step {
             light_pass = state.light_pass;
-            before = rig.model.counters().clone();
+            before = rig.counters();
             spent.push(Counters::default());
         }
         if let Some(count) = rig.memories.take_step(plan, step, &mut maps) {
             rig.draw(triangles.by_ref().take(count), |_, model, cycle| watch(light_pass, model, cycle))?;
-            let pass = rig.model.counters().since(&before);
+            let pass = rig.counters().since(&before);
             spent.last_mut().into_iter().for_each(|last| last.clone_from(&pass));
         }
     }
@@ -207,7 +207,7 @@ fn draw<const C: usize>(
             false => Vec::new(),
         },
         maps: maps.drawn_by(passes),
-        counters: rig.model.counters().clone(),
+        counters: rig.counters(),
         passes: spent,
         events: rig.model.events().clone(),
     })

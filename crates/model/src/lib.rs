@@ -39,6 +39,7 @@ pub mod view;
 // The memories of units, and when they make the machine wait.
 mod waits;
 mod served;
+mod service;
 pub mod word_memory;
 // The units, each by its ports.
 pub mod ports;
@@ -73,11 +74,12 @@ pub mod color_memory;
 pub mod memories;
 pub mod run;
 pub mod frame;
+pub mod profile;
 pub mod fast;
 
 pub use blend::BlendInputs;
 pub use color_memory::ColorMemory;
-pub use counters::Counters;
+pub use counters::{Counters, PACED};
 pub use edgewalk_machine::{Activity, DrawState, Events, Pass, Shading, first_of_picture};
 pub use frame::{Drawn, Frame, Sample, render, render_passes, render_passes_with, render_with};
 pub use io::{Cycle, Inputs, Outputs};
@@ -91,5 +93,5 @@ pub use setup::{Culled, SetupClocks, cull, longest_setup, setup_clocks};
 pub use shadow::ShadowInputs;
 pub use tokens::Write;
 pub use view::View;
-pub use waits::{Dram, Fixed, KINDS as WAITS, Stalls, Waits, WaitsError};
-pub use word_memory::{Ask, WordIn, WordMemory};
+pub use waits::{Dram, Fixed, KINDS as WAITS, PageCounts, Stalls, Waits, WaitsError};
+pub use word_memory::{Ask, MEMORIES, WordIn, WordMemory};

@@ -215,6 +215,7 @@ impl<const C: usize> Model<C> {
             self.step_stage(&wires, offers.made(), place, inputs);
         }
         self.offers = offers;
+        self.count_word_reads(inputs);
         self.step_pixel(inputs, &wires, light_pass);
         self.step_lines(inputs, wires.span_ready(), light_pass, tell);
         if outputs.triangle {
@@ -261,9 +262,26 @@ impl<const C: usize> Model<C> {
         if written {
             one_more(&mut self.counters.writes);
         }
+        if outputs.wr.as_ref().is_some_and(|write| write.z_en) && inputs.wr_ready {
+            one_more(&mut self.counters.depth_writes);
+        }
+        if C > FEW && outputs.blend.crd.is_some() && inputs.blend.crd_ready {
+            one_more(&mut self.counters.color_reads);
+        }
         self.counters.hold(self.span.queued(), self.depth.inflight());
         if outputs.triangle {
             self.events.machine.setup_overlap += u64::from(self.pixel.active());
+        }
+    }
+
+    /// Counts the reads of the memories that the host alone writes.
+    #[inline(always)]
+    fn count_word_reads(&mut self, inputs: &Inputs) {
+        if C > FEW {
+            let asks = self.offers.asks().iter().zip(inputs.words);
+            for (reads, (ask, port)) in self.counters.word_reads.iter_mut().zip(asks) {
+                *reads = reads.wrapping_add(u64::from(ask.addr.is_some() && port.ready));
+            }
         }
     }
 

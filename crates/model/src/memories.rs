@@ -8,11 +8,12 @@
 
 use crate::blend::BlendInputs;
 use crate::color_memory::ColorMemory;
+use crate::counters::PACED;
 use crate::io::{Cycle, Inputs};
 use crate::memory::Memory;
 use crate::shadow::ShadowInputs;
 use crate::tokens::{FEW, OutputWords};
-use crate::waits::Waits;
+use crate::waits::{PageCounts, Waits};
 use crate::word_memory::{Ask, WordIn, WordMemory};
 use edgewalk_machine::{DrawState, Maps, Plan, PortVertex, Record, Shading, Step};
 
@@ -140,6 +141,21 @@ impl<const C: usize> Memories<C> {
             }
             _ => self.pixel(addr),
         }
+    }
+
+    /// What the pages of each memory did so far: depth, colour, then the memories that the host alone writes. Depths and colours of the
+    /// map and of the picture count as one.
+    #[must_use]
+    pub fn pages(&self) -> [PageCounts; PACED] {
+        let mut pages = [PageCounts::default(); PACED];
+        let mut add = |place: usize, counts: PageCounts| pages[place] = pages[place].and(counts);
+        let other = self.other.iter().map(|page| (&page.depth, &page.color));
+        for (depth, color) in other.chain([(&self.depth, &self.color)]) {
+            add(0, depth.pages());
+            color.iter().for_each(|color| add(1, color.pages()));
+        }
+        self.words.iter().enumerate().for_each(|(place, (_, memory))| add(2 + place, memory.pages()));
+        pages
     }
 
     /// What the next triangles are drawn with; the machine is idle.

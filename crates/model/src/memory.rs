@@ -14,7 +14,7 @@
 use crate::prefetch::prefetch;
 use crate::served::Served;
 use crate::tokens::{FEW, MAX_CHANNELS, OutputWords, Write};
-use crate::waits::Waits;
+use crate::waits::{PageCounts, Waits};
 use edgewalk_machine::Plan;
 
 /// State of the memory.
@@ -118,6 +118,12 @@ impl<const C: usize> Memory<C> {
             1..FEW => color(high, i) << LOW | color(low, i),
             _ => self.own[at][i - FEW],
         })
+    }
+
+    /// What its pages did so far.
+    #[must_use]
+    pub fn pages(&self) -> PageCounts {
+        self.served.pages()
     }
 
     /// Clock edge: the read that fired, whether the data was taken, the write that fired.

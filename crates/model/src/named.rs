@@ -128,7 +128,7 @@ impl Owned for Term {
 }
 
 /// Gives the fields of a token their declared names. Behind each field stand its names, each with the way from the field to
-/// the number: `major [major_c(.c), major_r(.r)]`. Of an array with an entry a channel or a term the text behind the name of
+/// the number: `major [major_c(.c), major_dist(.r)]`. Of an array with an entry a channel or a term the text behind the name of
 /// that is told: `start channels ["_start"([0])]`. Names of channels and terms come before all others.
 macro_rules! named {
     (

@@ -233,7 +233,7 @@ impl<const C: usize> Pixel<C> {
     }
 
     /// Moves the out stages, the pixel whose sums are ready into the first if it is `entering`.
-    #[inline]
+    #[inline(always)]
     fn shift(&mut self, entering: bool) {
         if C > FEW && self.terms > 0 {
             // Beside a stage without a fragment stands what stood there before; nobody looks at it.
@@ -255,7 +255,10 @@ impl<const C: usize> Pixel<C> {
         }
         let fragment = entering.then(|| self.fragment());
         self.out = std::mem::replace(&mut self.stages[self.oldest], fragment);
-        self.oldest = (self.oldest + 1) % self.before;
+        self.oldest += 1;
+        if self.oldest == self.before {
+            self.oldest = 0;
+        }
     }
 
     /// The pixel has entered the out stages, or lies beside the screen.

@@ -12,8 +12,10 @@
 //! Rules: `docs/machine.md`, section 19. Not modelled: nothing.
 
 mod table;
+mod along;
 mod load;
 mod pass;
+mod between;
 mod mover;
 mod view;
 
@@ -21,7 +23,7 @@ use crate::Events;
 use crate::counters::one_more;
 use crate::ports::{Held, Pins, Ported, Shown};
 use crate::tokens::{Line, Prim, Words};
-use edgewalk_machine::Plan;
+use edgewalk_machine::{COLOURS, Plan};
 use load::Load;
 use mover::Mover;
 use pass::Pass;
@@ -128,7 +130,10 @@ impl<const C: usize> Poly<C> {
         let width = self.widths[usize::from(light_pass)];
         let pair = self.pass.pair();
         let emptied = pair.is_some_and(|pair| self.mover.sees(&pair, line_taken, width, events));
-        self.mover.step(line_taken, pair.filter(|_| emptied), width);
+        let gradients = self.mover.step(line_taken, pair.filter(|_| emptied), width, fresh_queued, events);
+        if let Some(gradients) = gradients {
+            self.held.gradient[COLOURS].copy_from_slice(&gradients);
+        }
         let (walks, writes) = (self.pass.runs(), self.pass.writes());
         self.load.step(prim, writes, walks, events);
         self.pass.step(self.load.walked(), emptied, events);
@@ -151,7 +156,12 @@ impl<const C: usize> Poly<C> {
             return;
         }
         events.poly.polygon_full += u64::from(self.load.is_full(edges));
-        self.held = Held { gradient: prim.gradient, kt: prim.kt, record: prim.record };
+        let mut gradient = prim.gradient;
+        if self.mover.divides() {
+            // Those of colours are of a span.
+            gradient[COLOURS].copy_from_slice(&self.held.gradient[COLOURS]);
+        }
+        self.held = Held { gradient, kt: prim.kt, record: prim.record };
         self.pass.begin(edges, prim.start_pixel[1], prim.thin);
         self.mover.begin(prim);
     }

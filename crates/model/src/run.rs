@@ -28,7 +28,7 @@ pub fn tick(
         rig.memories.write_shading(plan, shading);
         let triangles = triangles.iter().map(|triangle| Ok::<_, Infallible>(*triangle));
         let Ok(()) = rig.draw(triangles, |_, _, _| {});
-        (rig.model.counters().clone(), rig.model.events().clone())
+        (rig.counters(), rig.model.events().clone())
     })
 }
 
@@ -46,6 +46,12 @@ impl<const C: usize> Rig<C> {
     #[must_use]
     pub fn new(plan: &Plan, state: DrawState, waits: impl Into<Waits>) -> Self {
         Rig { model: Model::new(plan), memories: Memories::new(plan, state, waits.into()) }
+    }
+
+    /// Performance counters since construction, with those of the memories.
+    #[must_use]
+    pub fn counters(&self) -> Counters {
+        Counters { pages: self.memories.pages(), ..self.model.counters().clone() }
     }
 
     /// The machine's inputs in a cycle, with a triangle and its tag offered or none.
@@ -82,12 +88,24 @@ impl<const C: usize> Rig<C> {
     #[inline(always)]
     pub fn draw<E>(
         &mut self,
+        triangles: impl Iterator<Item = Result<[PortVertex; 3], E>>,
+        watch: impl FnMut(u64, &Model<C>, &Cycle<C>),
+    ) -> Result<(), E> {
+        self.draw_seen(triangles, |_, _| (), watch)
+    }
+
+    /// Draws like [`Rig::draw`]. `see` gets the machine and the offered tokens before each cycle.
+    #[inline(always)]
+    pub(crate) fn draw_seen<E>(
+        &mut self,
         mut triangles: impl Iterator<Item = Result<[PortVertex; 3], E>>,
+        mut see: impl FnMut(&Self, Option<(&[PortVertex; 3], u32)>),
         mut watch: impl FnMut(u64, &Model<C>, &Cycle<C>),
     ) -> Result<(), E> {
         let mut next = triangles.next().transpose()?;
         let mut now = 0u64;
         loop {
+            see(self, next.as_ref().map(|triangle| (triangle, 0)));
             let cycle = self.cycle(next.as_ref().map(|triangle| (triangle, 0)), true);
             watch(now, &self.model, &cycle);
             now = now.wrapping_add(1);

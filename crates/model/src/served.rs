@@ -8,7 +8,7 @@
 //! Rules: `docs/machine.md`, section 7. Not modelled: refresh, banks.
 
 use crate::fifo::Fifo;
-use crate::waits::{Pacer, Waits};
+use crate::waits::{Pacer, PageCounts, Waits};
 use std::collections::VecDeque;
 
 /// Reads in a queue in place: no more than a read-modify-write has on their way.
@@ -37,6 +37,11 @@ impl<W: Copy + Default, const MANY: bool> Served<W, MANY> {
             reads: Fifo::default(),
             more: VecDeque::new(),
         }
+    }
+
+    /// What the memory's pages did so far.
+    pub fn pages(&self) -> PageCounts {
+        self.pacer.counts()
     }
 
     /// A read can be taken in this cycle.

@@ -1,14 +1,14 @@
 //! SHADE: the colour of a fragment, by tables that hold the material.
 //!
 //! ```text
-//!  frag ─> [A] d, h, lit ─> [B] T[d], S[h] ─> [G] highlight · beam ─> [M] light · colour ─> [C] sum, cut ─> tinted
+//!  frag ─> [A] d, h, lit ─> [B] T[d], S[h] ─> [G] highlight · beam ─> [L] sums ─> [M] light · colour ─> [C] sum, cut ─> tinted
 //!    └─another material─> srd, sdata ─> T, S
 //! ```
 //! Formats: N·L and N·H of t + 2 and t + m + 2 bits, two's complement, entries of a table; colours of b bits; light of b + 3,
 //! 2^(b+2) for 1; the beam of 17 bits, 2^16 for 1.
 //!
-//! Timing: a fragment taken in cycle n is offered in n + 3, with `multiply` (stage M) and behind LAMP (stage G) one later each; one a clock. All stages move
-//! together. A material's tables are fetched one entry a clock when no stage holds a fragment.
+//! Timing: a fragment taken in cycle n is offered in n + 3, with `multiply` (stages L and M) two later, behind LAMP (stage G)
+//! one later; one a clock. All stages move together. A material's tables are fetched one entry a clock when no stage holds a fragment.
 //!
 //! Rules: `docs/machine.md`, sections 12 and, of stage G, 17. Not modelled: when each stage does its part; colours are
 //! found on the way in, as the tables stay while a fragment is inside.
@@ -61,7 +61,7 @@ pub struct Shade<const C: usize> {
     fetch: Fetch,
     /// Entries of T and S, light by light.
     tables: Vec<(u64, u32)>,
-    /// A, B, with LAMP G, with `multiply` M, and C.
+    /// A, B, with LAMP G, with `multiply` L and M, and C.
     stages: Stages<Shaded<C>>,
 }
 
@@ -82,7 +82,8 @@ impl<const C: usize> Shade<C> {
             fetch: Fetch::of(shade.entries()),
             tables: vec![(0, 0); shade.entries() as usize],
             stages: Stages::new(
-                3 + usize::from(shade.is_positional()) + usize::from(shade.colour == ShadeColour::Multiply),
+                3 + usize::from(shade.is_positional())
+                    + if shade.colour == ShadeColour::Multiply { 2 } else { 0 },
             ),
         }
     }
@@ -226,7 +227,7 @@ impl<const C: usize> Shade<C> {
         (weakened as u32).min(self.largest()) // below 2^18
     }
 
-    /// Stage M: colours times the light.
+    /// Stages L and M: the light of all, and colours times it.
     fn product(&self, own: [u32; 3], lights: &[Found; LIGHTS]) -> [u32; 3] {
         let shift = self.color_bits + 2;
         let one = 1u64 << shift;

@@ -131,18 +131,28 @@ tokens! {
         flat: bool = false => [flat()];
         /// With POLY: bits for the major, the first and the second minor edge, those that count.
         sides: u32 = 0 => [sides()];
-        /// With POLY: the last edges of a polygon, with its plane.
+        /// With POLY: a whole triangle or line, or the last edges of a polygon with its plane.
         ends: bool = false => [ends()];
         /// With POLY: the plane has no area, nothing is drawn.
         void: bool = false => [void()];
         /// With POLY: column and line of the pixel at which values start; the line is the first that is drawn.
         start_pixel: [u32; 2] = [0; 2] => [start_x([0]), start_y([1])];
         /// Edge 0-2.
-        major: EdgeWalk = EdgeWalk::default() => [major_c(.c), major_r(.r), major_q(.q), major_f(.f), major_m(.m)];
+        major: EdgeWalk = EdgeWalk::default() => [major_c(.c), major_dist(.r), major_q(.q), major_f(.f), major_m(.m)];
         /// Edges 0-1 and 1-2.
         minor: [EdgeWalk; 2] = [EdgeWalk::default(); 2] => [
-            minor1_c([0].c), minor1_r([0].r), minor1_q([0].q), minor1_f([0].f), minor1_m([0].m),
-            minor2_c([1].c), minor2_r([1].r), minor2_q([1].q), minor2_f([1].f), minor2_m([1].m)
+            minor1_c([0].c), minor1_dist([0].r), minor1_q([0].q), minor1_f([0].f), minor1_m([0].m),
+            minor2_c([1].c), minor2_dist([1].r), minor2_q([1].q), minor2_f([1].f), minor2_m([1].m)
+        ];
+        /// With bilinear colours: DY of edges 0-2, 0-1 and 1-2, 2^-t px.
+        heights: [u32; 3] = [0; 3] => [height02([0]), height01([1]), height12([2])];
+        /// From vertex 0 to the first line, and from vertex 1 to that of the lower part, 2^-t px.
+        down: [u32; 2] = [0; 2] => [down0([0]), down1([1])];
+        /// Red, green and blue at the vertices sorted by line, 2^-e LSB.
+        colours: [[u32; 3]; 3] = [[0; 3]; 3] => [
+            r_at0([0][0]), r_at1([0][1]), r_at2([0][2]),
+            g_at0([1][0]), g_at1([1][1]), g_at2([1][2]),
+            b_at0([2][0]), b_at1([2][1]), b_at2([2][2])
         ];
         /// First values. Exact fill: `start`, and 0; with POLY at `start_pixel`. Textbook fill: startA of part 1, startB of part 2.
         start: [Words<C>; 2] = [[0; C]; 2] => [] channels ["_start"([0]), "_start_a"([0]), "_start_b"([1])];

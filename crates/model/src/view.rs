@@ -42,6 +42,11 @@ impl View {
         View::default()
     }
 
+    /// As [`View::new`], but of tokens only the least and greatest value of each field is kept.
+    pub(crate) fn of_ranges() -> View {
+        View { tokens: Tokens::of_ranges(), ..View::default() }
+    }
+
     /// What there is to be seen; complete after the first cycle.
     #[must_use]
     pub fn structure(&self) -> &Structure {

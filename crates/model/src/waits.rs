@@ -7,6 +7,11 @@
 //! Written as `none`, `fixed:rd=1,data=4`, `random:seed=1,rd=64`, `dram:banks=4,page=256`: a kind, and the parameters that are
 //! not to stand as they are by themselves.
 
+mod pages;
+
+use pages::Pages;
+pub use pages::{Dram, PageCounts};
+
 use rand_pcg::Pcg32;
 use rand_pcg::rand_core::{RngCore, SeedableRng};
 use std::fmt;
@@ -39,24 +44,6 @@ pub struct Fixed {
     pub data: u32,
     /// `wr_ready` is low for so many clocks after a write.
     pub wr: u32,
-}
-
-/// A dynamic memory behind one controller: a word of it holds depth and colour of a pixel, an open page answers at once.
-/// While it works on something neither port is ready.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Dram {
-    /// Banks, each with one page open; page p lies in bank p mod `banks`.
-    pub banks: u32,
-    /// Words of a page.
-    pub page: u32,
-    /// Clocks to close a page and open another.
-    pub miss: u32,
-    /// Clocks to turn from reads to writes or back.
-    pub turn: u32,
-    /// Clocks from refresh to refresh, which closes all pages; 0: none.
-    pub refresh: u32,
-    /// Clocks that a refresh takes.
-    pub busy: u32,
 }
 
 /// How a memory makes the machine wait.
@@ -92,9 +79,16 @@ impl Waits {
             "none" => Some(Waits::Never),
             "fixed" => Some(Waits::Fixed(Fixed { rd: 1, data: 4, wr: 1 })),
             "random" => Some(Waits::Random(Stalls { seed: 1, rd: 64, data: 64, wr: 64 })),
-            "dram" => {
-                Some(Waits::Dram(Dram { banks: 4, page: 256, miss: 6, turn: 2, refresh: 780, busy: 13 }))
-            }
+            "dram" => Some(Waits::Dram(Dram {
+                banks: 4,
+                page: 256,
+                miss: 6,
+                turn: 2,
+                refresh: 780,
+                busy: 13,
+                word: 1,
+                line: 1,
+            })),
             _ => None,
         }
     }
@@ -131,13 +125,15 @@ impl Waits {
                 let share = |name, value: u8| (name, u64::from(value), 0, 255);
                 vec![("seed", seed, 0, u64::MAX), share("rd", rd), share("data", data), share("wr", wr)]
             }
-            Waits::Dram(Dram { banks, page, miss, turn, refresh, busy }) => vec![
+            Waits::Dram(Dram { banks, page, miss, turn, refresh, busy, word, line }) => vec![
                 ("banks", u64::from(banks), 1, 256),
                 ("page", u64::from(page), 1, most),
                 clocks("miss", miss),
                 clocks("turn", turn),
                 clocks("refresh", refresh),
                 clocks("busy", busy),
+                ("word", u64::from(word), 1, most),
+                ("line", u64::from(line), 1, 64),
             ],
         }
     }
@@ -158,7 +154,9 @@ impl Waits {
             (Waits::Dram(dram), "miss") => dram.miss = clocks,
             (Waits::Dram(dram), "turn") => dram.turn = clocks,
             (Waits::Dram(dram), "refresh") => dram.refresh = clocks,
-            (Waits::Dram(dram), _) => dram.busy = clocks,
+            (Waits::Dram(dram), "busy") => dram.busy = clocks,
+            (Waits::Dram(dram), "word") => dram.word = clocks,
+            (Waits::Dram(dram), _) => dram.line = clocks,
             (Waits::Never, _) => {}
         }
     }
@@ -167,7 +165,10 @@ impl Waits {
 impl fmt::Display for Waits {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(self.kind())?;
-        for (place, (name, value, ..)) in self.parameters().into_iter().enumerate() {
+        // A memory with a word a clock and without lines is called by the other parameters alone.
+        let shown =
+            |(name, value, ..): &(&str, u64, u64, u64)| !["word", "line"].contains(name) || *value != 1;
+        for (place, (name, value, ..)) in self.parameters().into_iter().filter(shown).enumerate() {
             write!(f, "{}{name}={value}", if place == 0 { ':' } else { ',' })?;
         }
         Ok(())
@@ -231,29 +232,24 @@ pub(crate) struct Pacer {
     pub wr_ready: bool,
 }
 
-/// State of a dynamic memory.
-#[derive(Clone, Debug, Default)]
-struct Pages {
-    /// The page open in each bank.
-    open: Vec<Option<u32>>,
-    /// The last access was a write.
-    writing: bool,
-    /// The cycle of the next refresh.
-    refresh: u64,
-}
-
 impl Pacer {
     pub fn new(waits: Waits) -> Self {
-        let (banks, refresh) = match waits {
-            Waits::Dram(dram) => (dram.banks, u64::from(dram.refresh)),
-            _ => (0, 0),
-        };
         let seed = if let Waits::Random(Stalls { seed, .. }) = waits { seed } else { 0 };
-        let pages = Pages { open: vec![None; banks as usize], writing: false, refresh };
+        let pages = if let Waits::Dram(dram) = waits { Pages::new(&dram) } else { Pages::default() };
         let random = Pcg32::seed_from_u64(seed);
         let mut pacer = Pacer { waits, random, free: [0; 2], pages, rd_ready: true, wr_ready: true };
         pacer.draw_readies();
         pacer
+    }
+
+    /// What the pages did so far.
+    pub fn counts(&self) -> PageCounts {
+        self.pages.counts
+    }
+
+    /// The first cycle in which the read port is ready again.
+    pub fn free(&self) -> u64 {
+        self.free[0]
     }
 
     /// Clock edge: addresses that were read and written in cycle `now`. Returns how many clocks later than L the depth comes.
@@ -287,35 +283,17 @@ impl Pacer {
     /// Accesses of one cycle, the read first.
     fn pages(&mut self, dram: Dram, now: u64, read: Option<u32>, write: Option<u32>) -> u64 {
         let pages = &mut self.pages;
-        let mut clocks = 0;
-        let mut access = |addr: u32, writes: bool| {
-            if pages.writing != writes {
-                clocks += u64::from(dram.turn);
-            }
-            pages.writing = writes;
-            let page = addr / dram.page;
-            let open = &mut pages.open[(page % dram.banks) as usize];
-            if *open != Some(page) {
-                clocks += u64::from(dram.miss);
-            }
-            *open = Some(page);
-            clocks
-        };
-        let late = read.map_or(0, |addr| access(addr, false));
-        if let Some(addr) = write {
-            access(addr, true);
+        // A word that is there after a clock is not late; behind a clock the port is free in the next cycle.
+        let [there, mut busy] = read.map_or([1, 0], |addr| pages.read(&dram, addr));
+        busy += write.map_or(0, |addr| pages.write(&dram, addr));
+        if busy > 0 {
+            self.free = [now + busy; 2];
         }
-        // The port is free in the next cycle; of two accesses in one the second takes a clock of its own.
-        let both = u64::from(read.is_some() && write.is_some());
-        if read.is_some() || write.is_some() {
-            self.free = [now + 1 + clocks + both; 2];
-        }
-        if dram.refresh > 0 && now >= self.pages.refresh {
-            self.pages.open.fill(None);
-            self.pages.refresh += u64::from(dram.refresh);
+        if dram.refresh > 0 && now >= pages.refresh {
+            pages.close(&dram);
             self.free = [self.free[0].max(now + 1) + u64::from(dram.busy); 2];
         }
-        late
+        there - 1
     }
 
     /// So many of 256 reads take 1 to 8 cycles longer.

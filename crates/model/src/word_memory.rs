@@ -3,11 +3,11 @@
 //! ```text
 //!  read ─> words[addr] ─> L cycles, in order ─> data
 //! ```
-//! Formats: a word of up to 128 bits an address. Timing and rules: [`crate::served`], and `docs/machine.md`, sections 7 and 10
+//! Formats: a word of up to 128 bits an address. Timing and rules: module `served`, and `docs/machine.md`, sections 7 and 10
 //! to 17.
 
 use crate::served::Served;
-use crate::waits::Waits;
+use crate::waits::{PageCounts, Waits};
 use edgewalk_machine::MemoryPort;
 
 /// Most memories of a machine that the host alone writes.
@@ -84,6 +84,12 @@ impl WordMemory {
     #[must_use]
     pub fn port(&self) -> WordIn {
         WordIn { ready: self.served.read_ready(), word: self.served.data() }
+    }
+
+    /// What its pages did so far.
+    #[must_use]
+    pub fn pages(&self) -> PageCounts {
+        self.served.pages()
     }
 
     /// Clock edge: the read that fired, whether the word was taken.

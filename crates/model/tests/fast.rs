@@ -10,11 +10,16 @@ use edgewalk_model::fast::{self, Path, Reason, Refusal};
 use edgewalk_model::{Activity, DrawState, Events, Frame, Stalls};
 use rand::{Rng, SeedableRng, rngs::StdRng};
 
-/// A machine with every key drawn at random, on a small screen.
-fn random_machine(rng: &mut impl Rng) -> Plan {
+/// A machine with every key drawn at random, on a small screen. Machines with POLY have a suite of their own, `fast_poly.rs`.
+pub(crate) fn random_machine(rng: &mut impl Rng) -> Plan {
+    random_machine_with(0, rng)
+}
+
+/// A machine with so many places for edges, and every other key at random.
+pub(crate) fn random_machine_with(edges: u32, rng: &mut impl Rng) -> Plan {
     loop {
         let mut machine = Machine::default();
-        // Those with POLY are ticked: tests/polygon.rs.
+        machine.polygon.edges = edges;
         for key in KEYS.iter().filter(|key| key.name != "polygon.edges") {
             let value = match key.domain {
                 Domain::Range(low, high) => rng.random_range(low..=high),
@@ -55,7 +60,7 @@ fn random_machine(rng: &mut impl Rng) -> Plan {
 }
 
 /// Triangles of every kind: tiny ones that pile up, large ones, degenerate ones, off the screen, to the guard band.
-fn random_triangles(machine: &Plan, rng: &mut impl Rng) -> Vec<Triangle> {
+pub(crate) fn random_triangles(machine: &Plan, rng: &mut impl Rng) -> Vec<Triangle> {
     let one = f64::from(1u32 << machine.subpixel_bits);
     let limit = f64::from((1u32 << machine.guard_bits) - 1);
     let mut middle = [0.0; 2];
@@ -96,7 +101,7 @@ fn random_triangles(machine: &Plan, rng: &mut impl Rng) -> Vec<Triangle> {
 }
 
 /// Draws both ways and compares all that can be seen.
-fn compare(machine: &Plan, triangles: &[Triangle], state: DrawState) -> Path {
+pub(crate) fn compare(machine: &Plan, triangles: &[Triangle], state: DrawState) -> Path {
     let drawn = fast::draw(machine, triangles.iter().copied(), state);
     let (fast, path) = drawn.expect("this machine's vertices");
     let mut tick = render(machine, triangles, state, Stalls::NONE);
@@ -153,7 +158,7 @@ fn random_machines_equal_ticking() {
                 Path::Ticked(Reason::Blend) => blend += 1,
                 Path::Ticked(Reason::Shade) => shade += 1,
                 Path::Ticked(Reason::Passes) => unreachable!("one pass"),
-                Path::Ticked(Reason::Polygons) => unreachable!("tests/polygon.rs"),
+                Path::Ticked(Reason::Polygons | Reason::Bilinear) => unreachable!("no POLY"),
                 Path::Ticked(Reason::Queue) => queue += 1,
                 Path::Ticked(Reason::Interlock) => interlock += 1,
                 Path::Ticked(Reason::Memory) => panic!("this memory never stalls"),

@@ -2,12 +2,14 @@
 
 mod common;
 
+mod bilinear;
 mod blend;
 mod channels;
 mod corners;
 mod dither;
 mod exact;
 mod fast;
+mod fast_poly;
 mod named;
 mod golden;
 mod hazards;

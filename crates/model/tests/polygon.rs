@@ -4,7 +4,6 @@ use crate::common::polygon::{Contours, KINDS, golden, shape, vertices};
 use crate::common::rule::exact_value;
 use crate::common::{ALWAYS, Triangle, any_triangle, fragments, machine, render};
 use edgewalk_machine::{Machine, Plan, PortVertex, Role, Sides, Window};
-use edgewalk_model::fast::{self, Path, Reason};
 use edgewalk_model::{DrawState, Events, Stalls};
 use rand::{Rng, SeedableRng, rngs::StdRng};
 use std::collections::BTreeSet;
@@ -217,17 +216,6 @@ fn triangles_cover_the_pixels_that_edge_gives() {
     }
 }
 
-#[test]
-fn a_machine_with_poly_is_ticked() {
-    let plan = small(&[]);
-    let mut rng = StdRng::seed_from_u64(9);
-    let triangles: Vec<Triangle> = (0..20).map(|_| any_triangle(&plan, &mut rng)).collect();
-    let (frame, path) =
-        fast::draw(&plan, triangles.iter().copied(), DrawState::default()).expect("this machine's vertices");
-    assert_eq!(path, Path::Ticked(Reason::Polygons));
-    assert_eq!(frame, render(&plan, &triangles, DrawState::default(), Stalls::NONE));
-}
-
 /// Clocks a line of polygons of `kind` that lie on 640 x 480, spans far shorter than the walk.
 fn clocks_a_line(plan: &Plan, contours: &[Contours]) -> f64 {
     let (mut cycles, mut lines) = (0, 0u64);
@@ -324,7 +312,12 @@ fn sheet(plan: &Plan) -> Vec<Vec<PortVertex>> {
     quads.map(|quad| corners(quad).map(|[x, y]| corner(x, y)).into()).collect()
 }
 
-/// Figures of `docs/polygons.md`: `cargo test -p edgewalk-model --test suites -- polygon::quads --nocapture`.
+/// A number from 1,000 to 999,999 as pages write it.
+fn grouped(number: u64) -> String {
+    format!("{},{:03}", number / 1000, number % 1000)
+}
+
+/// Figures of `docs/polygons.md`: `cargo test --release -p edgewalk-model polygon::quads -- --nocapture`.
 #[test]
 fn quads_take_fewer_clocks_than_triangles() {
     let poly = machine(&[("polygon.edges", "64")]);
@@ -340,10 +333,13 @@ fn quads_take_fewer_clocks_than_triangles() {
     let of = |plan: &Plan| -> Vec<Triangle> { quads.iter().flat_map(|quad| halves(plan, quad)).collect() };
     let frame = |plan: &Plan, tokens: &[Triangle]| render(plan, tokens, DrawState::default(), Stalls::NONE);
     let drawn = [frame(&poly, &as_polygons), frame(&poly, &of(&poly)), frame(&edge, &of(&edge))];
+    let page = include_str!("../../../docs/polygons.md");
     let names = ["quads by POLY", "triangles by POLY", "triangles by EDGE"];
     for (name, frame) in names.iter().zip(&drawn) {
         let [edges, channels] = frame.counters.setup_clocks;
-        println!("6000 {name}: {} cycles, setup {} clocks", frame.counters.cycles, edges + channels);
+        let row = format!("| {name} | {} | {} |", grouped(frame.counters.cycles), grouped(edges + channels));
+        println!("{row}");
+        assert!(page.contains(&row), "docs/polygons.md has not: {row}");
         assert_eq!(frame.coverage, drawn[0].coverage, "{name}");
     }
     assert_eq!(quads.len(), 6000);

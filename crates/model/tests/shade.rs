@@ -335,7 +335,7 @@ fn roots_are_as_near_as_the_specification_says() {
 fn shading_costs_no_clock_a_pixel() {
     let mut rng = StdRng::seed_from_u64(9);
     for (kind, colour, stages, roots) in
-        [("fast-phong", "tables", 3, 0), ("fast-phong", "multiply", 4, 0), ("phong", "tables", 8, 259)]
+        [("fast-phong", "tables", 3, 0), ("fast-phong", "multiply", 5, 0), ("phong", "tables", 9, 259)]
     {
         let plan = machine(&[("shade.kind", kind), ("shade.colour", colour), ("shade.table_bits", "8")]);
         let vertex = |x, y| plan.raw_vertex(x, y, &[0; 4]);

@@ -44,9 +44,9 @@ pub struct Netlist {
     pub items: Vec<Item>,
     /// For each output the inputs it depends on without a register between, ascending.
     pub paths: Vec<Vec<usize>>,
-    /// The module, or an instance in it, has a register or a memory: there is a port `clk`.
+    /// There is a port `clk`.
     pub has_clock: bool,
-    /// The module, or an instance in it, has a register with reset: there is a port `rst`.
+    /// There is a port `rst`.
     pub has_reset: bool,
 }
 
@@ -281,6 +281,29 @@ pub enum Item {
 }
 
 impl Netlist {
+    /// The module, or an instance in it, has a register or a memory.
+    pub fn needs_clock(&self) -> bool {
+        !self.registers.is_empty()
+            || !self.memories.is_empty()
+            || self.instances.iter().any(|instance| instance.module.has_clock)
+    }
+
+    /// The module, or an instance in it, has a register with reset.
+    pub fn needs_reset(&self) -> bool {
+        self.registers.iter().any(|register| register.reset.is_some())
+            || self.instances.iter().any(|instance| instance.module.has_reset)
+    }
+
+    /// The same module with ports `clk` and `rst`, whether anything in it needs them or not.
+    #[must_use]
+    pub fn clocked(mut self: Arc<Self>) -> Arc<Netlist> {
+        if !(self.has_clock && self.has_reset) {
+            let netlist = Arc::make_mut(&mut self);
+            (netlist.has_clock, netlist.has_reset) = (true, true);
+        }
+        self
+    }
+
     /// The places of all nodes.
     pub fn ids(&self) -> impl Iterator<Item = NodeId> + use<> {
         (0..self.nodes.len() as u32).map(NodeId)

@@ -45,6 +45,14 @@ pub fn triangle_error(rounding: Rounding, fraction_bits: u32, steps: Steps) -> I
     end(low).hull(end(high))
 }
 
+/// Bound 20: error of a bilinear colour n_y lines down its edges and n_x columns from the span's first, where the edges are where
+/// they should be: (1 + n_y)·u/2 for the edges' values, (1 + n_x)·u for the first value and the increments, whose
+/// quotients are cut and whose products are rounded.
+#[must_use]
+pub fn bilinear_error(fraction_bits: u32, steps: Steps) -> Dyadic {
+    half_units(3 + i128::from(steps.lines) + 2 * i128::from(steps.columns), fraction_bits)
+}
+
 /// Bound 4: fraction bits with which N steps stay under 1/2 LSB, so that the rounded output is within 1 LSB
 /// and never leaves the range of the vertices, without a clamp: bitlen(N+1) for RN, 1 + ceil(log2(N+1)) for a
 /// directed rounding.

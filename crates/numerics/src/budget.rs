@@ -5,7 +5,7 @@
 //!                 2^-(e+1)               bound 2                    1/2        LSB, summed
 //! ```
 
-use crate::bounds::{slope_edge_error, triangle_error};
+use crate::bounds::{bilinear_error, slope_edge_error, triangle_error};
 use crate::dyadic::Dyadic;
 use crate::rounding::Rounding;
 use crate::steps::Steps;
@@ -29,11 +29,16 @@ impl ErrorBudget {
     /// `vertex_fraction` bits; the output is rounded by at most `output`.
     #[must_use]
     pub fn new(vertex_fraction: u32, fraction: u32, steps: Steps, output: Dyadic) -> ErrorBudget {
-        ErrorBudget {
-            vertex: slope_edge_error(vertex_fraction, 0),
-            steps: triangle_error(Rounding::NearestHalfUp, fraction, steps).magnitude(),
-            output,
-        }
+        let steps = triangle_error(Rounding::NearestHalfUp, fraction, steps).magnitude();
+        ErrorBudget { vertex: slope_edge_error(vertex_fraction, 0), steps, output }
+    }
+
+    /// Like [`ErrorBudget::new`], of a colour along the edges of a polygon and then from edge to edge, bound 20. What slope edges
+    /// beside the true ones make of it comes on top.
+    #[must_use]
+    pub fn bilinear(vertex_fraction: u32, fraction: u32, steps: Steps, output: Dyadic) -> ErrorBudget {
+        let steps = bilinear_error(fraction, steps);
+        ErrorBudget { vertex: slope_edge_error(vertex_fraction, 0), steps, output }
     }
 
     /// Largest difference of the value before the output rounding from the plane, LSB.

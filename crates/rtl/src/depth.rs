@@ -2,8 +2,8 @@
 
 use std::sync::Arc;
 
-use edgewalk_machine::Plan;
 use edgewalk_machine::units::depth::SPEC;
+use edgewalk_machine::{Hazard, Plan};
 use edgewalk_netlist::{BuildErrors, Module, Netlist, Signal};
 
 use crate::ports::Interface;
@@ -55,7 +55,12 @@ pub fn depth(plan: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
     let pend_fence = forks
         .then(|| m.reg("pend_fence", 1).doc("a fence to hand on: its fragment never reaches BLEND").reset(0));
 
-    m.comment("A fragment enters when the queue has room and no fragment in flight may change its depth.");
+    m.comment(match plan.hazard {
+        Hazard::Forward => "A fragment enters while the queue has room: its depth may still be in flight, as it is forwarded.",
+        Hazard::Interlock | Hazard::Drain => {
+            "A fragment enters while the queue has room and no fragment in flight may change its depth."
+        }
+    });
     let enter = flight.enter(frag_valid, &frag, None, memory.read_ready);
 
     m.comment("Compare the head with its old depth when the depth arrives and w is free.");

@@ -73,13 +73,14 @@ fn place<'m>(m: &'m Module, plan: &Plan, units: &[(&UnitSpec, Build)]) -> Result
 
 fn doc(plan: &Plan, units: &[(&UnitSpec, Build)]) -> String {
     let ports: Vec<_> = units.iter().map(|(unit, _)| (unit.name, (unit.ports)(plan))).collect();
+    let drawn = if plan.polygon.is_there() { "triangles and polygons" } else { "triangles" };
     format!(
-        "EDGEWALK draws triangles, scan line by scan line.
+        "EDGEWALK draws {drawn}, scan line by scan line.
 
 {}
 
 A link ─> has valid and ready: a token moves in a cycle where both are high. valid never waits for ready.
-Values below the links are stable while their tokens are offered. One clock; rst is synchronous, active high.
+A value drawn without valid is held until its reader has loaded it. One clock; rst is synchronous, active high.
 activity is the single cause of the cycle: {}.
 PIXEL stalls in every cause but draw and offscreen.",
         picture::picture(&ports),

@@ -11,20 +11,21 @@ use edgewalk_netlist::{BuildErrors, Module, Netlist, Reg, Signal};
 use crate::ports::Interface;
 use crate::roots::Roots;
 use crate::wires::{Part, Registers, moved, parts};
-use cosine::cosine;
+use cosine::{cosine, product};
 
 const DOC: &str = "NORMAL divides the products of a fragment's normal by the normal's length.
 
-  frag ─> [N1: limit N.N] ─> [N2: entry of R] ─> [N3: slope * low] ─> [N4: y, the root] ─> [N5: product * y] ─> normed
+  frag ─> [N1: limit N.N] ─> [N2: entry of R] ─> [N3: slope * low] ─> [N4: y, the root]
+       ─> [N5: product * y] ─> [N6: cosine, entry] ─> normed
                  roots memory ─ rdata ─┘
 
 Formats: pl*, ph* and nn are signed, 2^16 for 1.0; nn is limited to [1/4, 1). R holds {v, slope}, 2^-16: v is 1/sqrt(k/256),
 slope the decrease to the next entry. nl* and nh* are signed, in entries of SHADE's tables, saturated at the ends.
-Timing: a fragment a clock, offered five clocks after it was taken. All stages advance together.
+Timing: a fragment a clock, offered six clocks after it was taken. All stages advance together.
 Rules: R is fetched once after a reset, when the first fragment is offered, a word a clock. No fragment is taken before.";
 
 /// What the stages are called.
-const STAGES: [&str; 5] = ["n1", "n2", "n3", "n4", "n5"];
+const STAGES: [&str; 6] = ["n1", "n2", "n3", "n4", "n5", "n6"];
 
 /// The netlist of NORMAL.
 ///
@@ -41,16 +42,23 @@ pub fn normal(plan: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
     let cosines = parts(&tokens::cosines(plan));
     let through = |part: &Part| part.name != "nn";
     let with_products: Vec<Part> = frag.parts().into_iter().filter(through).collect();
+    let is_kept = |part: &Part| cosines.iter().any(|kept| kept.name == part.name);
     let without: Vec<Part> = cosines.iter().filter(|part| frag.get(&part.name).is_some()).cloned().collect();
+    let with_gloss: Vec<Part> =
+        frag.parts().into_iter().filter(|part| is_kept(part) || part.name == "gloss").collect();
     let stages = STAGES.map(|name| {
-        let kept = if name == "n5" { &without } else { &with_products };
+        let kept = match name {
+            "n5" => &with_gloss,
+            "n6" => &without,
+            _ => &with_products,
+        };
         let valid = m.reg(&format!("{name}_valid"), 1).doc("the stage holds a fragment").reset(0);
         Stage { valid, kept: Registers::new(&m, name, kept.clone()) }
     });
-    let last = stages[4].valid.q();
+    let last = stages[STAGES.len() - 1].valid.q();
     let advance = (!last | normed_ready).named_doc("advance", "all stages advance");
     let occupied = stages.iter().map(|stage| stage.valid.q()).reduce(|any, one| any | one);
-    let occupied = occupied.expect("there are five stages");
+    let occupied = occupied.expect("there are six stages");
 
     let roots = Roots::new(&m, plan, "table R", frag_valid, &memory);
     let frag_ready = (advance & roots.have).named("frag_ready");
@@ -82,16 +90,25 @@ pub fn normal(plan: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
     let rounded = (less + m.lit(18, 1 << 7)).slice(17, 8).named_doc("rounded", "2^-16");
     let y = moved(&m, advance, "n4_y", "1/sqrt(N.N), 2^-16", n3_v - rounded.zext(17));
 
-    m.comment("N5: the cosines, and their entries in SHADE's tables.");
-    let n4 = stages[3].kept.token();
-    let cosines: Vec<(String, Signal<'_>)> = cosines
+    m.comment("N5: the products with the root, exact.");
+    let (n4, n5) = (stages[3].kept.token(), stages[4].kept.token());
+    let found: Vec<&Part> = cosines.iter().filter(|part| frag.get(&part.name).is_none()).collect();
+    let products: Vec<Signal<'_>> = found
         .iter()
-        .filter(|part| frag.get(&part.name).is_none())
         .map(|part| {
-            let gloss = part.name.starts_with("nh").then(|| n4["gloss"]);
-            let product = n4[part.name.replacen('n', "p", 1).as_str()];
-            let index = cosine(&m, plan, part, product, y, gloss);
-            (part.name.clone(), moved(&m, advance, &format!("n5_{}", part.name), &part.doc, index))
+            let name = part.name.replacen('n', "p", 1);
+            moved(&m, advance, &format!("n5_{name}"), "times the root, 2^-32", product(n4[name.as_str()], y))
+        })
+        .collect();
+
+    m.comment("N6: the cosines, and their entries in SHADE's tables.");
+    let cosines: Vec<(String, Signal<'_>)> = found
+        .iter()
+        .zip(products)
+        .map(|(part, product)| {
+            let gloss = part.name.starts_with("nh").then(|| n5["gloss"]);
+            let index = cosine(&m, plan, part, product, gloss);
+            (part.name.clone(), moved(&m, advance, &format!("n6_{}", part.name), &part.doc, index))
         })
         .collect();
 

@@ -1,9 +1,12 @@
 //! POLY: walks all edges of a polygon, a pair of them a span.
 
 mod table;
+mod along;
 mod load;
 mod pass;
 mod insert;
+mod columns;
+mod between;
 mod mover;
 
 use std::sync::Arc;
@@ -52,14 +55,26 @@ pub fn poly(plan: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
     let tables = Tables::new(&m, plan, &prim);
     let links =
         load::Links { prim_valid, prim: &prim, fresh_queued, walking: walking.q(), pass_writes: writes.q() };
-    let load = Load::new(&m, &tables, &links);
+    let load = Load::new(&m, plan, &tables, &links);
     let pair_leaves = m.wire("pair_leaves", 1).doc("MOVER takes the pair that waits, or drops it");
-    let links = pass::Links { load: &load, prim: &prim, walking: walking.q(), pair_leaves: pair_leaves.q() };
-    let pass = Pass::new(&m, &tables, &links);
+    let links = pass::Links {
+        load: &load,
+        prim: &prim,
+        walking: walking.q(),
+        pair_leaves: pair_leaves.q(),
+        light_pass,
+    };
+    let pass = Pass::new(&m, plan, &tables, &links);
     writes.drive(pass.writes);
-    let links =
-        mover::Links { prim: &prim, begins: load.begins, walking: walking.q(), pair: pass.pair, line_ready };
-    let mover = Mover::new(&m, plan, light_pass, &links);
+    let links = mover::Links {
+        prim: &prim,
+        begins: load.begins,
+        walking: walking.q(),
+        pair: pass.pair,
+        line_ready,
+        fresh_queued,
+    };
+    let mover = Mover::new(&m, plan, &links);
     pair_leaves.drive(mover.pair_leaves);
     walking.drive(pass.run | pass.pair.waits | mover.has_span);
 

@@ -5,6 +5,7 @@ mod control;
 mod sort;
 mod role;
 mod polygon;
+mod along;
 mod walked;
 mod top;
 mod lines;
@@ -69,9 +70,10 @@ pub fn setup(plan: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
 
     // The first line, the moduli and the side follow from other registers; all else of the prim is a
     // register.
+    let along = along::Along::new(plan);
     let computed = |name: &str| matches!(name, "jm" | "major_right" | "void") || name.ends_with("_m");
     let mut kept = parts(&ports.gives_link().fields);
-    kept.retain(|f| !computed(&f.name));
+    kept.retain(|f| !computed(&f.name) && !along.has(&f.name));
     let prim = Registers::new(&m, "prim", kept);
     for name in ["kt", "tag"] {
         if let (Some(register), Some(value)) = (prim.get(name), triangle.get(name)) {
@@ -132,6 +134,7 @@ pub fn setup(plan: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
         None if name == "jm" => first_line,
         None if name == "major_right" => area.negative,
         None if name == "void" => void(),
+        None if along.has(name) => along.field(name, &vertices, &lines),
         None => prim[name].q(),
     });
     m.finish()

@@ -28,13 +28,13 @@ const DOC: &str = "SHADE makes the colour of a fragment from its cosines, by tab
 
 Formats: nl* and nh* are signed, in entries of a table, and saturate at its ends. T holds the diffuse light, S the highlight,
 in LSB of the colour. Where nl is below 0, the highlight is 0. Sums saturate at the largest colour.
-Timing: a fragment a clock, offered three clocks after it was taken, with stage M four. All stages advance together.
+Timing: a fragment a clock, offered three clocks after it was taken, with stages L and M five. All stages advance together.
 Rules: the unit holds the tables of one material. A fragment of another material waits until the stages are empty and its
 tables have been fetched, a word a clock.";
 
 const WEAKEN_DOC: &str = "Behind LAMP: a fragment also brings beam, 2^16 for all of the light. Behind B stage [G] multiplies the highlight by beam.";
 
-const MULTIPLY_DOC: &str = "Multiplied: T holds the light, 2^(b+2) for 1.0. Between B and C stage [M] multiplies the fragment's colour by the light.";
+const MULTIPLY_DOC: &str = "Multiplied: T holds the light, 2^(b+2) for 1.0. Between B and C stage [L] sums the lights, and stage [M] multiplies the fragment's colour by the light.";
 
 /// The netlist of SHADE.
 ///
@@ -58,9 +58,9 @@ pub fn shade(plan: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
     m.comment("Stages, and the fields that pass through them unchanged.");
     let names: &[&str] = match (weakens, multiplies) {
         (false, false) => &["a", "b", "c"],
-        (false, true) => &["a", "b", "m", "c"],
+        (false, true) => &["a", "b", "l", "m", "c"],
         (true, false) => &["a", "b", "g", "c"],
-        (true, true) => &["a", "b", "g", "m", "c"],
+        (true, true) => &["a", "b", "g", "l", "m", "c"],
     };
     let tinted = parts(&tokens::tinted(plan));
     let beam: Vec<_> = frag.parts().into_iter().filter(|part| part.name == BEAM).collect();
@@ -68,7 +68,7 @@ pub fn shade(plan: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
         .iter()
         .map(|name| {
             // The triangle's colour goes as far as it is multiplied, and so does the beam.
-            let colour = multiplies && ["a", "b", "g"].contains(name);
+            let colour = multiplies && ["a", "b", "g", "l"].contains(name);
             let of_beam = beam.iter().filter(|_| ["a", "b"].contains(name));
             let is_kept = |part: &str| colour || !COLOURS.contains(&part);
             let kept = tinted.iter().filter(|part| is_kept(&part.name)).chain(of_beam).cloned().collect();
@@ -79,7 +79,7 @@ pub fn shade(plan: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
     let last = stages[stages.len() - 1].valid.q();
     let advance = (!last | tinted_ready).named_doc("advance", "all stages advance");
     let occupied = stages.iter().map(|stage| stage.valid.q()).reduce(|any, one| any | one);
-    let occupied = occupied.expect("there are three stages or four").named("occupied");
+    let occupied = occupied.expect("there are three stages at least").named("occupied");
 
     let tables = Tables::new(&m, plan, &memory, frag_valid, frag.get("material"), occupied);
     let frag_ready = (advance & tables.fits).named("frag_ready");
@@ -98,8 +98,9 @@ pub fn shade(plan: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
     let lights = tables.look_up(&m, advance, &indices);
     let lights = if weakens { weakened(&m, plan, advance, stages[1].kept[BEAM].q(), lights) } else { lights };
     let shone = Shone { m: &m, plan, advance, lights };
-    let before_light = &stages[if weakens { 2 } else { 1 }].kept;
-    let colours = if multiplies { shone.multiplied(before_light) } else { shone.told() };
+    // Behind B, and G if it is there.
+    let beside_light = &stages[if weakens { 3 } else { 2 }].kept;
+    let colours = if multiplies { shone.multiplied(beside_light) } else { shone.told() };
 
     ports.take_ready(frag_ready);
     ports.read("tables", tables.read_valid, tables.read_place, tables.loading);

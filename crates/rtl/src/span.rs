@@ -1,4 +1,4 @@
-//! SPAN: cuts a line to the screen and queues what is left of it.
+//! SPAN: cuts the end of a line to the screen and queues the span.
 
 use std::sync::Arc;
 
@@ -11,13 +11,13 @@ use crate::light_pass::LightPass;
 use crate::ports::Interface;
 use crate::wires::{Registers, Token, moved, parts};
 
-const DOC: &str = "SPAN cuts a line to the screen and queues what is left of it.
+const DOC: &str = "SPAN cuts the end of a line to the screen and queues the span.
 
   line ─> [end cut to the screen] ─> held ─> empty? ─no─> [FIFO] ─> span
                                                └─yes─> dropped; its flags wait for the next span
 
-Timing: a line is taken while none is held, or the queue has room for the one that is; a span is seen two cycles after its line
-was taken at the earliest. An empty line takes its turn like any other.
+Timing: SPAN takes a line if it holds none, or if the queue has room. A span appears two cycles after its line was taken, at the
+earliest. An empty line takes its turn like any other.
 Rules: the span is cut on the side where it ends. Columns off the screen on the side where it starts are
 stepped over by PIXEL, as the channels must be stepped there too.";
 

@@ -123,8 +123,9 @@ fn colours_are_those_of_the_definition_in_the_clocks_that_are_said() {
         let mut reads: VecDeque<(u64, u128)> = VecDeque::new();
         let mut inside: VecDeque<(u64, Fields)> = VecDeque::new();
         let (mut current, mut material, mut cycle, mut sent) = (None, 0, 0, 0);
-        let stages =
-            3 + u64::from(plan.shade.colour == ShadeColour::Multiply) + u64::from(plan.shade.is_positional());
+        let stages = 3
+            + 2 * u64::from(plan.shade.colour == ShadeColour::Multiply)
+            + u64::from(plan.shade.is_positional());
         let mut offered = fragment(&plan, material, &mut rng);
         // Since when the fragment is offered, and the stages are empty.
         let (mut since, mut empty) = (0, 0);

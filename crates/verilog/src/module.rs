@@ -210,6 +210,12 @@ impl<'n> Printer<'n> {
         let named = named.filter_map(|id| Some((id, netlist.name_of(id)?)));
         let made_up = self.writer.declared().map(|(id, name)| (id, name.to_string()));
         let mut parts = vec!["1'b0".to_string()];
+        // Ports that a module has and that nothing in it needs.
+        let implicit = [
+            ("clk", netlist.has_clock && !netlist.needs_clock()),
+            ("rst", netlist.has_reset && !netlist.needs_reset()),
+        ];
+        parts.extend(implicit.iter().filter(|(_, idle)| *idle).map(|(port, _)| (*port).to_owned()));
         for (id, name) in named.chain(made_up) {
             let width = netlist.width(id);
             let whole = [(width - 1, 0)];

@@ -11,7 +11,7 @@ use rand::SeedableRng;
 use rand_pcg::Pcg64Mcg;
 use std::sync::Arc;
 
-/// The netlist of the machine or of one of its units.
+/// The netlist of the machine or of one of its units. It has a clock and a reset: DITHER alone may need none.
 ///
 /// # Errors
 /// None for a unit of the machine.
@@ -20,7 +20,7 @@ pub fn netlist(plan: &Plan, unit: Unit) -> Result<Arc<Netlist>, BuildErrors> {
         return edgewalk_rtl::machine(plan);
     }
     let build = edgewalk_rtl::units::builder(unit.name());
-    build.expect("a test of rtl finds a builder for every declared unit")(plan)
+    Ok(build.expect("a test of rtl finds a builder for every declared unit")(plan)?.clocked())
 }
 
 /// A netlist whose ports are those of an interface, after a clock of reset.

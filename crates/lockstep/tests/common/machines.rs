@@ -3,8 +3,8 @@
 use edgewalk_machine::key::Domain;
 use edgewalk_machine::keys::KEYS;
 use edgewalk_machine::{
-    BlendKind, Dither, EdgeKind, Fill, Lines, MAX_CHANNELS, Machine, OwnPass, Plan, Precision, SetupKind,
-    ShadeColour, ShadeLight, ShadowLight, Texture, Transmits,
+    BlendKind, Dither, EdgeKind, Fill, Lines, MAX_CHANNELS, Machine, OwnPass, Plan, Precision, ShadeColour,
+    ShadeKind, ShadeLight, ShadowLight, Texture, Transmits, Values,
 };
 use rand::Rng;
 use rand::seq::IndexedRandom;
@@ -38,6 +38,13 @@ pub fn random_poly(rng: &mut Pcg64Mcg) -> Plan {
     loop {
         let mut machine = draw(rng);
         machine.polygon.edges = *[8, 8, 16, 32].choose(rng).expect("four");
+        if machine.polygon.is_bilinear() {
+            if rng.random() {
+                (machine.edge_kind, machine.shade.kind) = (EdgeKind::Slope, ShadeKind::None);
+            } else {
+                machine.polygon.values = Values::Plane;
+            }
+        }
         if let Ok(plan) = machine.plan() {
             return plan;
         }
@@ -72,9 +79,6 @@ fn draw(rng: &mut Pcg64Mcg) -> Machine {
     machine.guard_bits =
         if rng.random_bool(0.1) { rng.random_range(8..=14) } else { rng.random_range(2..=6) };
     machine.tag_bits = *[0, 1, 5, 32].choose(rng).expect("four");
-    if machine.setup_kind == SetupKind::Sequenced {
-        (machine.fill, machine.edge_kind) = (Fill::Exact, EdgeKind::Exact);
-    }
     if machine.fill == Fill::Textbook {
         machine.subpixel_bits = 0;
     }

@@ -242,6 +242,7 @@ fn give(name: &str) -> Option<Give> {
         "r" => Give::R,
         "c" => Give::C,
         "start" => Give::Start,
+        "startb" => Give::StartB,
         "d0" => Give::D0,
         "d1" => Give::D1,
         "g" => Give::G,

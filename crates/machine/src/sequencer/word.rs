@@ -53,7 +53,7 @@ pub enum Base {
 pub enum Operand {
     /// The row: its A to A, its W to W.
     Row,
-    /// To A the low bits of W, signed, to W the row's W.
+    /// To A the low bits of W, signed, to W the row's W; with slope edges of W / 2^(F+1), rounded down.
     Whole,
     /// To A the row's A, to W the row's W and 2^(t+r-e) times the row's A.
     Raised,
@@ -163,20 +163,22 @@ pub enum Give {
     N2,
     /// M of the edge: A.
     M,
-    /// q and f of the edge: W, and A / P.
+    /// q and f of the edge: W, and A / P; of a slope edge W / 2^(F+1), and W / 2 mod 2^F.
     Qf,
-    /// R of the edge: A / P.
+    /// R of the edge: A / P; of a slope edge W / 2 mod 2^F.
     R,
     /// C of the edge: A / P.
     C,
-    /// First value of the channel: W / P.
+    /// First value of the channel: W / P; in textbook fill that of the upper part.
     Start,
-    /// W / 2.
+    /// W / 2; in textbook fill the upper part's step.
     D0,
-    /// W / 2.
+    /// W / 2; in textbook fill the lower part's step.
     D1,
     /// W / 2.
     G,
+    /// First value of the channel in the lower part, in textbook fill: W / P.
+    StartB,
 }
 
 /// Which word comes next: the one behind, or the one at a place.
@@ -230,7 +232,7 @@ impl Control {
 }
 
 /// All that a word can do besides, by the names of the listing. The place of an act is its number in the ROM, less one.
-pub const ACTS: [(&str, Act); 22] = [
+pub const ACTS: [(&str, Act); 24] = [
     ("unsorted", Act::Unsorted),
     ("swap01", Act::Swap01),
     ("swap12", Act::Swap12),
@@ -253,6 +255,8 @@ pub const ACTS: [(&str, Act); 22] = [
     ("drop columns", Act::Drop(Drop::Columns)),
     ("drop area", Act::Drop(Drop::Area)),
     ("done", Act::Done),
+    ("times f", Act::TimesF),
+    ("times tf", Act::TimesTf),
 ];
 
 /// What else is done.
@@ -278,6 +282,10 @@ pub enum Act {
     Check,
     /// The counter := t.
     TimesT,
+    /// The counter := F.
+    TimesF,
+    /// The counter := t + F.
+    TimesTf,
     /// The counter := t + r - e of the round, and i.
     TimesK,
     /// i := i + 3.

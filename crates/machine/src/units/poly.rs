@@ -53,5 +53,9 @@ events! {
     load_waits = "cycles in which an edge waits for the write port of the table" if always;
     load_overlap = "edges loaded while another polygon is walked" if always;
     polygon_fresh_wait = "cycles in which a polygon waits for the one before" if always;
+    polygon_tie = "edges that go before another of the same column" if |plan| plan.polygon.is_bilinear();
+    polygon_narrow = "spans between edges at most a pixel apart" if |plan| plan.polygon.is_bilinear();
+    polygon_divides = "cycles in which a span waits for its colours alone" if |plan| plan.polygon.is_bilinear();
+    load_divides = "cycles in which an edge waits for its colours" if |plan| plan.polygon.is_bilinear();
     polygon_fifo_full = "cycles in which a span waits for the span FIFO" if always;
 }

@@ -3,7 +3,7 @@
 use crate::channel::Channel;
 use crate::field::{Field, Scale};
 use crate::machine::{EdgeKind, Fill};
-use crate::plan::Plan;
+use crate::plan::{COLOURS, Plan};
 use crate::record::GLOSS_BITS;
 use crate::term::{COSINES, Term};
 use edgewalk_numerics::Format;
@@ -124,8 +124,8 @@ fn edge(plan: &Plan, edge: &str) -> Vec<Field> {
     };
     let name = |part: &str| format!("{edge}_{part}");
     let mut fields = vec![
-        Field::signed(name("c"), column, "first column right of the edge"),
-        Field::count(name("r"), remainder, format!("distance from the edge to that column, {unit}")),
+        Field::signed(name("c"), column, "first column on or right of the edge"),
+        Field::count(name("dist"), remainder, format!("distance from the edge to that column, {unit}")),
         Field::signed(name("q"), column, "whole columns a line, step of c"),
         Field::count(name("f"), remainder, format!("{unit} a line")),
     ];
@@ -149,21 +149,52 @@ pub fn prim(plan: &Plan) -> Vec<Field> {
     if plan.polygon.is_there() {
         fields.extend([
             Field::count("sides", 3, "major, first and second minor edge count, a bit each"),
-            Field::count("ends", 1, "the last edges of a polygon, with its plane"),
+            Field::count(
+                "ends",
+                1,
+                "1: a whole triangle or line, or the last edges of a polygon with its plane",
+            ),
             Field::count("void", 1, "the plane has no area: nothing is drawn"),
         ]);
         fields.extend(start_pixel(plan));
     }
     fields.extend(thin(plan));
     fields.extend(EDGES.iter().flat_map(|name| edge(plan, name)));
-    for channel in plan.channels() {
+    for (_, channel) in plan.planes() {
         let result =
             |(result, doc): &(&str, &str)| Field::word(format!("{}_{result}", channel.name), channel, *doc);
         fields.extend(results(plan).iter().map(result));
     }
+    fields.extend(along_edges(plan));
     fields.extend(triangle_kt(plan));
     fields.extend(record(plan));
     fields.extend(tag(plan));
+    fields
+}
+
+/// What POLY makes colours along edges of, with `polygon.values = bilinear`.
+fn along_edges(plan: &Plan) -> Vec<Field> {
+    if !plan.polygon.is_bilinear() {
+        return Vec::new();
+    }
+    let bits = plan.widths().difference - 1;
+    let height = |ends: &str| {
+        Field::count(
+            format!("height{ends}"),
+            bits,
+            format!("lines from vertex {} to {} of those sorted by line, 1/P line", &ends[..1], &ends[1..]),
+        )
+    };
+    let down = |vertex: &str, line: &str| {
+        Field::count(format!("down{vertex}"), bits, format!("from vertex {vertex} down to {line}, 1/P line"))
+    };
+    let mut fields: Vec<Field> = ["02", "01", "12"].map(height).into();
+    fields.extend([down("0", "the first line"), down("1", "the first line of the lower part")]);
+    for channel in &plan.channels()[COLOURS] {
+        let value =
+            |place: usize| Field::of(format!("{}_at{place}", channel.name), channel.vertex_format(), "LSB");
+        fields.extend((0..3).map(value));
+    }
     fields
 }
 
@@ -189,18 +220,24 @@ pub fn held_by_edge(plan: &Plan) -> Vec<Field> {
 #[must_use]
 pub fn line(plan: &Plan) -> Vec<Field> {
     let w = plan.widths();
+    let [cmaj, cmin, fresh] = if plan.polygon.is_there() {
+        ["first column of the span", "column behind the span", "first span of the polygon"]
+    } else {
+        [
+            "first column on or right of the major edge",
+            "first column on or right of the minor edge",
+            "first line of the triangle",
+        ]
+    };
     let mut fields = vec![
         Field::count("y", w.line, "line"),
-        Field::signed("cmaj", w.column, "first column right of the major edge"),
-        Field::signed("cmin", w.column, "first column right of the minor edge"),
+        Field::signed("cmaj", w.column, cmaj),
+        Field::signed("cmin", w.column, cmin),
         Field::count("major_right", 1, "the major edge is the right one"),
     ];
     fields.extend(thin(plan));
     fields.extend(words(plan));
-    fields.extend([
-        Field::count("fresh", 1, "first line of the triangle"),
-        Field::count("fence", 1, "fragments in flight may lie on the same pixels"),
-    ]);
+    fields.extend([Field::count("fresh", 1, fresh), fence()]);
     fields.extend(tag(plan));
     fields
 }
@@ -271,10 +308,7 @@ fn span_with(plan: &Plan, terms: Vec<Field>) -> Vec<Field> {
     ];
     fields.extend(words(plan));
     fields.extend(terms);
-    fields.extend([
-        Field::count("fresh", 1, "first span of the triangle; increments are new"),
-        Field::count("fence", 1, "fragments in flight may lie on the same pixels"),
-    ]);
+    fields.extend([Field::count("fresh", 1, "first span of the triangle; increments are new"), fence()]);
     fields.extend(tag(plan));
     fields
 }
@@ -453,7 +487,7 @@ fn fragment_with(plan: &Plan, terms: Vec<Field>) -> Vec<Field> {
 }
 
 fn fence() -> Field {
-    Field::count("fence", 1, "fragments in flight may lie on the same pixel")
+    Field::count("fence", 1, "older fragments of the same pixel may be in flight")
 }
 
 /// What is kept of a fragment while a memory is read for it.

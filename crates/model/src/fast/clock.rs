@@ -19,10 +19,13 @@
 //!
 //! Cycles are counted by cause (section 8) in order: `counted` is the first that is not yet.
 //!
+//! With POLY in EDGE's place the times of lines are those of `poly_clock.rs`.
+//!
 //! Not here: a queue that fills and addresses in flight under interlock; such frames are ticked.
 
 use super::inflight::InFlight;
 use super::walk::Span;
+use super::walking::Walking;
 use crate::counters::Counters;
 use crate::fifo::Fifo;
 use crate::setup::SetupClocks;
@@ -71,15 +74,15 @@ pub(super) struct Clock {
     keeps: bool,
 
     /// a: the cycle in which SETUP takes the next triangle; before its words have come, the first of them.
-    take: u64,
+    pub(super) take: u64,
     /// EDGE takes a prim not before.
-    edge_free: u64,
+    pub(super) edge_free: u64,
     /// EDGE offers the next line from this cycle on.
-    offer: u64,
+    pub(super) offer: u64,
     /// The cycle after the last line has moved on from SPAN's register.
-    moved: u64,
+    pub(super) moved: u64,
     /// No span of the triangle has come yet.
-    fresh: bool,
+    pub(super) fresh: bool,
     /// The cycle after the pop of each of the last 64 spans.
     room: [u64; 64],
     spans: u64,
@@ -89,13 +92,14 @@ pub(super) struct Clock {
     /// Cycles of all spans in the FIFO.
     queued: u64,
     /// S1 and S2 of all triangles.
-    setup: [u64; 2],
+    pub(super) setup: [u64; 2],
     /// Cycles counted as EDGE while lines are walked.
     edge: u64,
     /// PIXEL pops not before.
     pixel_free: u64,
     last: Option<LastRead>,
     fences: Fifo<Fence, 8>,
+    pub(super) walking: Walking,
     counted: u64,
     activity: [u64; Activity::ALL.len()],
 }
@@ -126,6 +130,7 @@ impl Clock {
             pixel_free: 0,
             last: None,
             fences: Fifo::default(),
+            walking: Walking::default(),
             counted: 0,
             activity: [0; Activity::ALL.len()],
         }
@@ -158,7 +163,7 @@ impl Clock {
 
     /// SETUP works until it takes the next triangle, and is IDLE in that cycle, or in those of its words.
     #[inline(always)]
-    fn enter_setup(&mut self) {
+    pub(super) fn enter_setup(&mut self) {
         self.spend(self.take, Activity::Setup);
         if self.words > 0 {
             self.take += self.words;
@@ -233,41 +238,45 @@ impl Clock {
 
     /// Spans of a machine in which fragments wait for fences, or must not meet their addresses.
     fn watched<W>(&mut self, spans: &[Span<W>], fresh: bool, to_left: bool) {
-        let (mut first, pixel) = (true, u64::from(self.pixel));
+        let mut first = true;
         for span in spans {
-            let place = self.spans as usize;
             self.lines(u64::from(span.empty) + 1);
-            let push = self.moved - 1;
-            let mut pop = self.pixel_free.max(push + 1);
-            while !self.fences.is_empty() && self.fences.head().arrival <= pop {
-                self.pass_fence(Activity::Edge);
-                pop = self.pixel_free.max(push + 1);
-            }
-            self.room[place & 63] = pop + 1;
-            self.queued += pop - push;
-            self.spans += 1;
-            let drawn = pop + u64::from(span.skip) * pixel;
-            if first {
-                if fresh {
-                    self.edge_free = pop + 1;
-                    self.fresh = false;
-                }
-                if self.drain {
-                    let arrival = drawn + pixel + self.segments;
-                    self.fences.push(Fence { arrival, before: self.last });
-                }
-            }
-            if let Some(inflight) = &mut self.inflight {
-                inflight.meet(span, drawn, to_left, first);
-            }
-            self.edge += pop + 1 - self.counted;
-            self.skipped += u64::from(span.skip);
-            self.drawn += u64::from(span.count);
-            self.pixel_free = drawn + u64::from(span.count) * pixel;
-            self.counted = self.pixel_free + 1;
-            self.last = Some(LastRead { cycle: self.pixel_free + self.segments, passed: false });
+            self.span(span, first && fresh, first, to_left);
             first = false;
         }
+    }
+
+    /// The line that moved on last is a span: of a triangle or polygon the first one if it is fresh, and the first behind a fence.
+    #[inline(always)]
+    pub(super) fn span<W>(&mut self, span: &Span<W>, fresh: bool, fence: bool, to_left: bool) {
+        let (place, pixel) = (self.spans as usize, u64::from(self.pixel));
+        let push = self.moved - 1;
+        let mut pop = self.pixel_free.max(push + 1);
+        while !self.fences.is_empty() && self.fences.head().arrival <= pop {
+            self.pass_fence(Activity::Edge);
+            pop = self.pixel_free.max(push + 1);
+        }
+        self.room[place & 63] = pop + 1;
+        self.queued += pop - push;
+        self.spans += 1;
+        let drawn = pop + u64::from(span.skip) * pixel;
+        if fresh {
+            self.edge_free = pop + 1;
+            self.fresh = false;
+        }
+        if fence && self.drain {
+            let arrival = drawn + pixel + self.segments;
+            self.fences.push(Fence { arrival, before: self.last });
+        }
+        if let Some(inflight) = &mut self.inflight {
+            inflight.meet(span, drawn, to_left, fence);
+        }
+        self.edge += pop + 1 - self.counted;
+        self.skipped += u64::from(span.skip);
+        self.drawn += u64::from(span.count);
+        self.pixel_free = drawn + u64::from(span.count) * pixel;
+        self.counted = self.pixel_free + 1;
+        self.last = Some(LastRead { cycle: self.pixel_free + self.segments, passed: false });
     }
 
     /// The cycle in which the next line moves on from SPAN's register, if there is room.
@@ -285,7 +294,7 @@ impl Clock {
     /// So many lines leave EDGE and move on from SPAN's register, all but the last without a pixel: one waits for room, and those
     /// behind it find the same room.
     #[inline(always)]
-    fn lines(&mut self, lines: u64) {
+    pub(super) fn lines(&mut self, lines: u64) {
         let next = self.next_line();
         self.moved = next.max(self.room_before(self.spans)) + lines;
         // A line leaves EDGE in the cycle in which the one before it moves on.
@@ -319,7 +328,7 @@ impl Clock {
 
     /// Counts the cycles before `until` in which PIXEL has nothing to do.
     #[inline(always)]
-    fn spend(&mut self, until: u64, cause: Activity) {
+    pub(super) fn spend(&mut self, until: u64, cause: Activity) {
         if until <= self.counted {
             return;
         }

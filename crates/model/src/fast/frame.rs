@@ -1,9 +1,10 @@
-//! Walks every triangle as EDGE and SPAN do, draws its spans, and keeps the clock.
+//! Walks every triangle as EDGE and SPAN do, every polygon as POLY does, draws its spans, and keeps the clock.
 
 use super::clock::Clock;
 use super::passage::Passage;
 use super::picture::Picture;
 use super::pixel::Pixel;
+use super::poly::Poly;
 use super::refusal::{Reason, Refusal};
 use super::setup::Setup;
 use super::span::{DepthTest, Ramp};
@@ -44,24 +45,31 @@ pub(super) fn draw<P: Pixel, const DETAILS: bool>(
     };
     let setup = Setup::new(plan);
     let walker = Walker::new(plan);
+    let mut poly = plan.polygon.is_there().then(|| Poly::new(plan));
+    // Of the primitive that a token belongs to: a polygon is any number of tokens.
+    let mut id = 0;
     let mut batch: Batch = from_fn(|_| Sorted::default());
     let mut prims: [Prim<FEW>; BATCH] = [Prim::default(); BATCH];
     let mut done = [(SetupClocks::default(), false); BATCH];
     loop {
-        let (first, count) = (frame.counters.triangles, bring(plan, &setup, &mut batch)?);
+        let count = bring(plan, &setup, &mut batch)?;
         frame.counters.triangles += count as u64;
         for ((done, prim), sorted) in done.iter_mut().zip(&mut prims).zip(&batch[..count]) {
             *done = setup.increments(sorted, prim);
         }
-        for (id, ((clocks, is_drawn), prim)) in (first..).zip(done.iter().zip(&prims)).take(count) {
-            if *is_drawn {
-                frame.triangle::<DETAILS>(&walker, *clocks, prim, id as i32);
-            } else {
-                frame.clock.culled(*clocks);
-                if let Some(passage) = &mut frame.passage {
-                    passage.culled();
+        for (((clocks, is_drawn), prim), sorted) in done.iter().zip(&prims).zip(&batch[..count]) {
+            let ends = sorted.role.ends();
+            match &mut poly {
+                _ if !is_drawn => {
+                    frame.clock.culled(*clocks);
+                    if let Some(passage) = &mut frame.passage {
+                        passage.culled(ends);
+                    }
                 }
+                None => frame.triangle::<DETAILS>(&walker, *clocks, prim, id),
+                Some(poly) => frame.token::<DETAILS>(poly, *clocks, prim, id)?,
             }
+            id += i32::from(ends); // a frame has fewer
             if frame.clock.interlocked() {
                 return Err(Reason::Interlock.into());
             }
@@ -71,6 +79,7 @@ pub(super) fn draw<P: Pixel, const DETAILS: bool>(
         }
     }
     frame.counters.writes = frame.test.passed();
+    frame.counters.depth_writes = if state.depth_write { frame.counters.writes } else { 0 };
     frame.clock.finish(&mut frame.counters);
     Ok(frame.counters)
 }
@@ -126,5 +135,42 @@ impl<P: Pixel> Frame<'_, P> {
         if let Some(passage) = &mut self.passage {
             passage.triangle(prim.lines, empty);
         }
+    }
+
+    /// POLY takes a prim; where it ends a polygon, that is drawn.
+    #[inline(always)]
+    fn token<const DETAILS: bool>(
+        &mut self,
+        poly: &mut Poly,
+        clocks: SetupClocks,
+        prim: &Prim<FEW>,
+        id: i32,
+    ) -> Result<(), Reason> {
+        let loads = poly.load(prim);
+        self.clock.token(clocks, &loads, prim.ends);
+        if let Some(passage) = &mut self.passage {
+            passage.token(loads, prim.ends);
+        }
+        if !prim.ends {
+            return Ok(());
+        }
+        if poly.begins(prim)? {
+            poly.walk(prim, &mut self.spans);
+            let (steps, spans) = (&poly.steps, self.spans.walked());
+            self.clock.polygon(steps, spans);
+            self.counters.lines += steps.iter().filter(|step| step.is_line()).count() as u64;
+            let mut passed = false;
+            if !spans.is_empty() {
+                let ramp = Ramp::new(poly.aligned(&prim.gradient));
+                [_, passed] = self.test.draw::<P, DETAILS>(self.picture, spans, &ramp, id);
+                self.clock.last_passed(passed);
+            }
+            if let Some(passage) = &mut self.passage {
+                passage.polygon(prim, steps, spans, passed);
+            }
+            self.spans.clear();
+        }
+        poly.clear();
+        Ok(())
     }
 }

@@ -1,8 +1,8 @@
 //! The fast path: the picture and the clock of the machine, without ticking.
 //!
 //! ```text
-//!  tri ─> setup ─> walk the lines ─┬─> span: pixels, LANES at a time ─> picture
-//!                                  └─> clock: max-plus over spans ────> counters
+//!  tri ─> setup ─> walk the lines ─────────┬─> span: pixels, LANES at a time ─> picture
+//!                  or the polygon's edges ─┴─> clock: max-plus over spans ────> counters
 //! ```
 //! Written from `docs/machine.md`. What comes out is what [`render`] gives with a memory that never
 //! stalls, bit by bit and cycle by cycle. Where that cannot be said without ticking, [`Renderer`] says why, and [`draw`]
@@ -10,16 +10,20 @@
 //!
 //! DITHER rounds a colour by its pixel alone: so colours are kept as PIXEL gives them, and rounded when they are read.
 //!
-//! Not modelled: [`Events`], memories that stall, channels of the user's own, POLY, BLEND, dropped fragments, TERM and SHADE.
+//! Not modelled: [`Events`], memories that stall, channels of the user's own, BLEND, dropped fragments, TERM and SHADE.
 
 mod refusal;
 mod divide;
 mod setup;
+mod setup_poly;
 mod prefetch;
 mod edge;
 mod walk;
+mod poly;
 mod inflight;
+mod walking;
 mod clock;
+mod poly_clock;
 mod pixel;
 mod picture;
 mod span;
@@ -57,7 +61,10 @@ impl fmt::Display for Path {
         f.write_str(match self {
             Path::Fast => "without ticking",
             Path::Ticked(Reason::Channels) => "ticked: the machine has extra channels",
-            Path::Ticked(Reason::Polygons) => "ticked: the machine has POLY",
+            Path::Ticked(Reason::Polygons) => {
+                "ticked: tokens of a polygon have several windows, or a line ends them"
+            }
+            Path::Ticked(Reason::Bilinear) => "ticked: colours run along the edges of polygons",
             Path::Ticked(Reason::Shadow) => "ticked: the machine has SHADOW",
             Path::Ticked(Reason::Blend) => "ticked: the machine has BLEND",
             Path::Ticked(Reason::ScreenDoor) => "ticked: the machine drops fragments by a pattern",

@@ -8,8 +8,10 @@ use edgewalk_machine::{ForeignVertex, Plan};
 pub enum Reason {
     /// The machine has channels of the user's own.
     Channels,
-    /// The machine has POLY.
+    /// Tokens that no polygon is made of: of several windows, or a line behind edges that no plane has ended.
     Polygons,
+    /// Colours run along the edges of polygons.
+    Bilinear,
     /// The machine has SHADOW.
     Shadow,
     /// The machine blends.
@@ -51,8 +53,8 @@ impl From<ForeignVertex> for Refusal {
 
 /// Why no frame of the machine can be had without ticking.
 pub(super) fn refused(plan: &Plan) -> Option<Reason> {
-    if plan.polygon.is_there() {
-        return Some(Reason::Polygons);
+    if plan.polygon.is_bilinear() {
+        return Some(Reason::Bilinear);
     }
     if plan.blend.is_there() {
         return Some(Reason::Blend);

@@ -1,8 +1,9 @@
 //! SETUP's results and clocks with divisions that take a few clocks each, in 64 bits.
 //!
 //! A triangle is sorted when it is brought in, some triangles before the one that is drawn.
-//! Only for triangles, exact fill and exact edges, formats whose differences over the screen fit in 62 bits, and triangles whose
-//! numerators do; all else is left to the plain setup, with its 128 bits. Rules: `docs/machine.md`, section 2.
+//! Only for exact fill and exact edges, formats whose differences over the screen fit in 62 bits, and triangles whose
+//! numerators do; all else is left to the plain setup, with its 128 bits. What a machine with POLY takes is in
+//! `setup_poly.rs`. Rules: `docs/machine.md`, section 2.
 
 use super::divide::{Divisor, Shifts};
 use crate::setup::clocks::Timing;
@@ -13,38 +14,42 @@ use crate::tokens::{EdgeWalk, FEW, Prim, Source, per_channel, sign_extend, word_
 use edgewalk_machine::{EdgeKind, Fill, Plan, PortVertex, Role};
 use std::array::from_fn;
 
-type Words = crate::tokens::Words<FEW>;
+pub(super) type Words = crate::tokens::Words<FEW>;
 
 /// What the setup needs to know of a plan.
 #[derive(Clone, Debug)]
 pub(super) struct Setup {
     plan: Plan,
-    timing: Timing,
+    pub(super) timing: Timing,
     /// The plain setup does it all.
     plain: bool,
+    /// The machine has POLY.
+    polygon: bool,
     width: i64,
-    height: i64,
+    pub(super) height: i64,
+    /// Bits of a line.
+    pub(super) line_mask: u32,
     /// log2 P.
-    t: u32,
+    pub(super) t: u32,
     /// Bits above the vertex coordinates, and from the coordinates to centre coordinates: shift and offset.
     unused: u32,
     double: u32,
     offset: i32,
     column_bits: u32,
     /// The largest b + e, plus 1: bits of a signed difference.
-    difference_bits: u32,
+    pub(super) difference_bits: u32,
     vertex_masks: [i64; FEW],
-    word_masks: Words,
+    pub(super) word_masks: Words,
     /// r - e, and t + r - e.
-    value_shift: Shifts,
-    slope_shift: Shifts,
+    pub(super) value_shift: Shifts,
+    pub(super) slope_shift: Shifts,
     value_bits: [u32; 4],
     /// 2^(r-1), 0 if r = 0.
     half: Words,
 }
 
 /// A number was too long for 62 bits, or a quotient for the division.
-struct TooLong;
+pub(super) struct TooLong;
 
 impl Setup {
     pub(super) fn new(plan: &Plan) -> Self {
@@ -58,8 +63,10 @@ impl Setup {
             plan: plan.clone(),
             timing: Timing::new(plan),
             plain: !exact || difference_bits + w.difference > 62,
+            polygon: plan.polygon.is_there(),
             width: i64::from(plan.width),
             height: i64::from(plan.height),
+            line_mask: u32::MAX >> (32 - w.line),
             t: w.center_fraction,
             unused: 32 - w.vertex,
             double: u32::from(s == 0),
@@ -84,10 +91,13 @@ impl Setup {
     /// The clocks of a triangle, and whether it is drawn; if so, `prim` gets its increments, without tag and number.
     #[inline(always)]
     pub(super) fn increments(&self, sorted: &Sorted<FEW>, prim: &mut Prim<FEW>) -> (SetupClocks, bool) {
-        if !self.plain
-            && sorted.role == Role::Triangle
-            && let Ok(done) = self.short(sorted, prim)
-        {
+        let short = match sorted.role {
+            _ if self.plain => Err(TooLong),
+            Role::Line { .. } => Err(TooLong),
+            _ if self.polygon => self.token(sorted, prim),
+            _ => self.short(sorted, prim),
+        };
+        if let Ok(done) = short {
             return done;
         }
         let screen = Screen::picture(&self.plan);
@@ -163,15 +173,12 @@ impl Setup {
             ends: false,
             void: false,
             start_pixel: [0; 2],
+            heights: [0; 3],
+            down: [0; 2],
+            colours: [[0; 3]; 3],
             major,
             minor,
-            start: [
-                from_fn(|i| {
-                    let value = (a.values[i] as u64) << self.value_bits[i];
-                    (start[i] as u64).wrapping_add(value).wrapping_add(self.half[i]) & self.word_masks[i]
-                }),
-                [0; 4],
-            ],
+            start: [self.first_words(a, start), [0; 4]],
             delta: [word(d0), word(d1)],
             gradient: word(gx.map(turned)),
             kt: 0,     // no BLEND here
@@ -181,6 +188,15 @@ impl Setup {
         let phase2 = self.timing.phase2(sorted, &parts, prim, (area, scale));
         let clocks = self.of_program(sorted, &parts, prim);
         Ok((clocks.unwrap_or(SetupClocks { phase1, phase2 }), true))
+    }
+
+    /// The words at the first pixel: so much more than at a corner.
+    #[inline(always)]
+    pub(super) fn first_words(&self, corner: &Corner<FEW>, moved: [i64; FEW]) -> Words {
+        from_fn(|i| {
+            let value = (corner.values[i] as u64) << self.value_bits[i];
+            (moved[i] as u64).wrapping_add(value).wrapping_add(self.half[i]) & self.word_masks[i]
+        })
     }
 
     #[inline(always)]
@@ -205,19 +221,23 @@ impl Setup {
         };
         let [top, middle, bottom] = order;
         let corners = [corner(&vertices[top]), corner(&vertices[middle]), corner(&vertices[bottom])];
-        Sorted::of(corners, Role::of(vertices))
+        let mut sorted = Sorted::of(corners, Role::of(vertices));
+        if self.polygon {
+            self.window(&mut sorted, vertices, order);
+        }
+        sorted
     }
 
     /// k0 and k1: the first column that may have a pixel, and the first behind the last.
     #[inline(always)]
-    fn columns(&self, u: [i64; 3]) -> [i64; 2] {
+    pub(super) fn columns(&self, u: [i64; 3]) -> [i64; 2] {
         let [a, b, c] = u.map(|u| -(-u >> self.t)); // rounded up
         [a.min(b).min(c).max(0), a.max(b).max(c).min(self.width)]
     }
 
     /// The exact edge from `a` down to `b`, as it stands on line `j`.
     #[inline(always)]
-    fn walk(&self, a: &Corner<FEW>, b: &Corner<FEW>, j: i64, walked: bool) -> EdgeWalk {
+    pub(super) fn walk(&self, a: &Corner<FEW>, b: &Corner<FEW>, j: i64, walked: bool) -> EdgeWalk {
         let (dx, dy) = (b.u - a.u, b.v - a.v);
         if !walked {
             return EdgeWalk { m: dy as i32, ..EdgeWalk::default() };

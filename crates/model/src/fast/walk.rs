@@ -47,6 +47,15 @@ impl Spans {
         Spans { room: vec![none; lines as usize + 2], count: 0 }
     }
 
+    /// One more of a polygon, which may have several a line.
+    pub(super) fn push(&mut self, span: Span) {
+        match self.room.get_mut(self.count) {
+            Some(room) => *room = span,
+            None => self.room.push(span),
+        }
+        self.count += 1;
+    }
+
     #[inline(always)]
     pub(super) fn walked(&self) -> &[Span] {
         &self.room[..self.count]

@@ -1,7 +1,9 @@
 //! LOAD: takes the edges of a polygon into the table, sorted by their first lines.
 
-use super::table::{Bank, Order, Record};
+use super::along::Along;
+use super::table::{Bank, Colours, Order, Record};
 use crate::Events;
+use crate::counters::one_more;
 use crate::tokens::Prim;
 use edgewalk_machine::Plan;
 
@@ -24,6 +26,12 @@ pub(super) struct Load {
     top: u32,
     /// An edge waits for its place in the order list.
     putting: Option<Putting>,
+    /// With bilinear colours: how those of an edge are found.
+    along: Option<Along>,
+    /// Clocks for which the colours have been sought.
+    at: u32,
+    /// The colours are found.
+    found: bool,
 }
 
 /// An edge on its way to its place.
@@ -48,12 +56,21 @@ impl Load {
             did: [false; 3],
             top: 0,
             putting: None,
+            along: plan.polygon.is_bilinear().then(|| Along::new(plan)),
+            at: 0,
+            found: false,
         }
     }
 
     pub fn reset(&mut self) {
         (self.bank, self.edges, self.over) = (0, 0, false);
         (self.did, self.putting) = ([false; 3], None);
+        (self.at, self.found) = (0, false);
+    }
+
+    /// With bilinear colours: clocks for which those of an edge have been sought, and whether they are found.
+    pub fn sought(&self) -> Option<(u32, bool)> {
+        self.along.as_ref().map(|_| (self.at, self.found))
     }
 
     /// The bank that PASS walks.
@@ -99,15 +116,29 @@ impl Load {
         walks: bool,
         events: &mut Events,
     ) {
+        let left = prim.and_then(|prim| Some((prim, self.left(prim)?)));
+        let found = self.along.is_none() || self.found;
+        if let Some(along) = &self.along
+            && left.is_some()
+            && !found
+        {
+            self.found = self.at + 1 == along.clocks;
+            self.at = if self.found { 0 } else { self.at + 1 };
+        }
         if let Some(putting) = self.putting {
             return self.put(putting, events);
         }
-        let Some((prim, side)) = prim.and_then(|prim| Some((prim, self.left(prim)?))) else { return };
+        let Some((prim, side)) = left else { return };
+        if !found {
+            one_more(&mut events.poly.load_divides);
+            return;
+        }
         if writes {
             events.poly.load_waits += 1;
             return;
         }
         self.did[side] = true;
+        self.found = false;
         if self.edges == self.places {
             self.over = true;
             return;
@@ -117,7 +148,11 @@ impl Load {
         let below = if side == 2 { prim.lines[0] } else { 0 };
         let key = Order { line: (prim.line + below) & self.line_mask, index: self.edges };
         let bank = &mut self.banks[self.bank];
-        bank.edges[self.edges as usize] = Record { walk, lines: lines(prim, side) };
+        bank.edges[self.edges as usize] = Record {
+            walk,
+            lines: lines(prim, side),
+            colours: self.along.as_ref().map_or_else(Colours::default, |along| along.colours(prim, side)),
+        };
         if self.edges == 0 || key.line >= self.top {
             bank.order[self.edges as usize] = key;
             self.top = key.line;

@@ -1,5 +1,6 @@
 //! MOVER: takes the values of a polygon from span to span.
 
+use super::between::Between;
 use super::pass::Pair;
 use crate::Events;
 use crate::tokens::{Line, Prim, Words, add, word_masks};
@@ -26,6 +27,8 @@ pub(super) struct Mover<const C: usize> {
     columns: u32,
     /// neg: to the left.
     left: bool,
+    /// With bilinear colours: those of the span.
+    between: Option<Between>,
 }
 
 impl<const C: usize> Mover<C> {
@@ -42,11 +45,25 @@ impl<const C: usize> Mover<C> {
             step: [0; C],
             columns: 0,
             left: false,
+            between: plan.polygon.is_bilinear().then(|| Between::new(plan)),
         }
     }
 
     pub fn reset(&mut self) {
         self.has = false;
+        if let Some(between) = &mut self.between {
+            between.reset();
+        }
+    }
+
+    /// Colours are found between two edges.
+    pub fn divides(&self) -> bool {
+        self.between.is_some()
+    }
+
+    /// With bilinear colours: those of the span.
+    pub fn between(&self) -> Option<&Between> {
+        self.between.as_ref()
     }
 
     /// A span is on its way, or waits for SPAN.
@@ -54,14 +71,16 @@ impl<const C: usize> Mover<C> {
         self.has
     }
 
-    /// The values stand at the span's first pixel.
+    /// The values of planes stand at the span's first pixel.
     fn is_there(&self) -> bool {
         self.has && self.y == self.line.y && self.columns == 0
     }
 
     /// The span offered.
     pub fn line(&self) -> Option<&Line<C>> {
-        self.is_there().then_some(&self.line)
+        let offers =
+            self.between.as_ref().map_or_else(|| self.is_there(), |between| self.has && between.offers());
+        offers.then_some(&self.line)
     }
 
     /// The span to be given, where V is, the columns to go, and whether to the left.
@@ -92,7 +111,7 @@ impl<const C: usize> Mover<C> {
 
     /// The pixels of a pair: its first column on the screen and that behind the last; none if it has no pixel.
     fn pixels(pair: &Pair, width: i32) -> Option<[i32; 2]> {
-        let [left, right] = pair.columns;
+        let [left, right] = pair.columns();
         if pair.thin {
             return Some([left, right]);
         }
@@ -107,14 +126,31 @@ impl<const C: usize> Mover<C> {
             return true;
         }
         let taken = !self.has || line_taken;
-        events.poly.polygon_left += u64::from(taken && !pair.thin && pair.columns[0] < 0);
+        events.poly.polygon_left += u64::from(taken && !pair.thin && pair.columns()[0] < 0);
         taken
     }
 
-    /// Clock edge, with a pair that leaves its place, if one does.
-    pub fn step(&mut self, line_taken: bool, pair: Option<Pair>, width: i32) {
+    /// Clock edge, with a pair that leaves its place, if one does. With bilinear colours it may give g of those of the span.
+    pub fn step(
+        &mut self,
+        line_taken: bool,
+        pair: Option<Pair>,
+        width: i32,
+        fresh_queued: bool,
+        events: &mut Events,
+    ) -> Option<[u64; 3]> {
+        let there = self.is_there();
+        let mut gradients = None;
+        if let Some(between) = &mut self.between {
+            events.poly.polygon_divides += u64::from(there && between.dividing());
+            gradients = (there && !fresh_queued).then(|| between.offer()).flatten();
+            between.divide(&mut self.line.values);
+        }
         if line_taken {
-            (self.line.fresh, self.line.fence, self.has) = (false, false, false);
+            (self.line.fresh, self.line.fence, self.has) = (self.between.is_some(), false, false);
+            if let Some(between) = &mut self.between {
+                between.taken();
+            }
         } else if self.has && self.y != self.line.y {
             self.line.values = add(&self.line.values, &self.down, &self.masks);
             self.y = (self.y + 1) & self.line_mask;
@@ -133,6 +169,11 @@ impl<const C: usize> Mover<C> {
             let way = first - self.x;
             (self.columns, self.left) = (if pair.thin { 0 } else { way.unsigned_abs() }, way < 0);
             (self.x, self.step) = (first, self.across);
+            if let Some(between) = &mut self.between {
+                between.begin(&pair, first, &mut self.line.values);
+                events.poly.polygon_narrow += u64::from(!pair.thin && between.is_narrow());
+            }
         }
+        gradients
     }
 }

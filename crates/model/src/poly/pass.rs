@@ -1,7 +1,8 @@
 //! PASS: goes through the active list of a line once; pairs of its columns are spans, and each edge steps into the list of the
 //! next line.
 
-use super::table::{Bank, Word};
+use super::along::Along;
+use super::table::{Bank, Colours, Record, Word};
 use crate::Events;
 use crate::counters::one_more;
 use crate::tokens::EdgeWalk;
@@ -14,17 +15,37 @@ pub(super) struct Read {
     pub walk: EdgeWalk,
     /// n: lines left.
     pub lines: u32,
+    /// With bilinear colours: those of the edge.
+    pub colours: Colours,
     /// The edge begins on the next line.
     pub entering: bool,
+}
+
+/// An edge on a line, as one of a pair.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) struct End {
+    /// First column right of it, signed; of a line of one pixel that pixel.
+    pub column: i32,
+    /// With bilinear colours: 2^F - 1 - R.
+    pub below: i32,
+    /// Colours of the edge on the line, words of b + r bits.
+    pub colours: [u64; 3],
 }
 
 /// Two columns of a line.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) struct Pair {
     pub y: u32,
-    /// First columns right of both edges, signed; of a line of one pixel both are that pixel.
-    pub columns: [i32; 2],
+    /// The left and the right edge; of a line of one pixel both are the one that there is.
+    pub ends: [End; 2],
     pub thin: bool,
+}
+
+impl Pair {
+    /// First columns right of both edges.
+    pub fn columns(&self) -> [i32; 2] {
+        self.ends.map(|end| end.column)
+    }
 }
 
 /// State of PASS.
@@ -32,6 +53,8 @@ pub(super) struct Pair {
 pub(super) struct Pass {
     column_bits: u32,
     line_mask: u32,
+    /// With bilinear colours: their formats.
+    along: Option<Along>,
     lists: [Vec<Word>; 2],
     run: bool,
     thin: bool,
@@ -52,9 +75,9 @@ pub(super) struct Pass {
     c: Option<Read>,
     d: Option<Word>,
     /// The record of D is written.
-    writes: Option<(u32, EdgeWalk, u32)>,
-    /// The left column of a pair.
-    left: Option<i32>,
+    writes: Option<(u32, Record)>,
+    /// The left edge of a pair.
+    left: Option<End>,
     /// The last and the first word of the new list.
     top: Word,
     head: Word,
@@ -71,6 +94,7 @@ impl Pass {
         Pass {
             column_bits: plan.widths().column,
             line_mask: u32::MAX >> (32 - plan.widths().line),
+            along: plan.polygon.is_bilinear().then(|| Along::new(plan)),
             lists: [(); 2].map(|()| vec![Word::default(); edges]),
             run: false,
             thin: false,
@@ -133,7 +157,7 @@ impl Pass {
 
     /// The left column of a pair whose right one has not come.
     pub fn left(&self) -> Option<i32> {
-        self.left
+        self.left.map(|left| left.column)
     }
 
     /// Where D goes, while words make room for it.
@@ -156,7 +180,7 @@ impl Pass {
 
     /// D is smaller than the last word of the new list.
     fn moves(&self) -> bool {
-        self.gap.is_none() && self.new > 0 && self.d.is_some_and(|d| d.column < self.top.column)
+        self.gap.is_none() && self.new > 0 && self.d.is_some_and(|d| d.is_before(&self.top))
     }
 
     /// C makes a pair, and its place is full.
@@ -181,13 +205,13 @@ impl Pass {
         let first = bank.order.get(self.next as usize).copied().filter(|_| self.todo > 0);
         let enters = first.filter(|first| self.b.is_none() && first.line == next);
         let ends = !inserting && self.b.is_none() && self.c.is_none() && self.d.is_none() && enters.is_none();
-        if let Some((index, walk, lines)) = self.writes.take() {
-            let record = &mut bank.edges[index as usize];
-            (record.walk, record.lines) = (walk, lines);
+        if let Some((index, record)) = self.writes.take() {
+            bank.edges[index as usize] = record;
         }
         if inserting {
             self.insert(events);
         } else if moves {
+            events.poly.polygon_tie += u64::from(self.d.is_some_and(|d| d.column == self.top.column));
             self.lists[1 - self.old][self.new as usize] = self.top;
             self.gap = Some(self.new - 1);
             events.poly.polygon_moves += 1;
@@ -203,8 +227,8 @@ impl Pass {
         self.work(events);
         let words = self.new;
         let read = |index: u32, entering: bool| {
-            let record = bank.edges[index as usize];
-            Some(Read { index, walk: record.walk, lines: record.lines, entering })
+            let Record { walk, lines, colours } = bank.edges[index as usize];
+            Some(Read { index, walk, lines, colours, entering })
         };
         self.c = match (self.b, enters) {
             (Some(word), _) => read(word.index, false),
@@ -230,7 +254,8 @@ impl Pass {
         let (Some(gap), Some(d)) = (self.gap, self.d) else { return };
         let list = &mut self.lists[1 - self.old];
         let before = gap.checked_sub(1).map(|before| list[before as usize]);
-        if let Some(word) = before.filter(|word| word.column > d.column) {
+        if let Some(word) = before.filter(|word| d.is_before(word)) {
+            events.poly.polygon_tie += u64::from(word.column == d.column);
             list[gap as usize] = word;
             self.gap = Some(gap - 1);
             events.poly.polygon_moves += 1;
@@ -249,19 +274,22 @@ impl Pass {
     fn work(&mut self, events: &mut Events) {
         let Some(c) = self.c else { return };
         if !c.entering {
-            let columns = match (self.thin, self.left.take()) {
-                (true, _) => Some([c.walk.c; 2]),
-                (false, Some(left)) => Some([left, c.walk.c]),
+            let end =
+                End { column: c.walk.c, below: self.word(c.index, &c.walk).below, colours: c.colours.values };
+            let ends = match (self.thin, self.left.take()) {
+                (true, _) => Some([end; 2]),
+                (false, Some(left)) => Some([left, end]),
                 (false, None) => {
-                    self.left = Some(c.walk.c);
+                    self.left = Some(end);
                     None
                 }
             };
-            if let Some(columns) = columns {
+            if let Some(ends) = ends {
+                let columns = ends.map(|end| end.column);
                 let touches = columns[0] < columns[1] && self.end == Some(columns[0]);
                 events.poly.polygon_touching += u64::from(touches);
                 self.end = Some(columns[1]);
-                self.pair = Some(Pair { y: self.y, columns, thin: self.thin });
+                self.pair = Some(Pair { y: self.y, ends, thin: self.thin });
             }
             if c.lines == 1 {
                 return; // the edge leaves
@@ -270,9 +298,16 @@ impl Pass {
         let mut walk = c.walk;
         if !c.entering {
             walk.step(self.column_bits);
-            self.writes = Some((c.index, walk, c.lines - 1));
+            let colours = self.along.as_ref().map_or(c.colours, |along| along.step(&c.colours));
+            self.writes = Some((c.index, Record { walk, lines: c.lines - 1, colours }));
         }
-        self.d = Some(Word { column: walk.c, index: c.index });
+        self.d = Some(self.word(c.index, &walk));
+    }
+
+    /// The word of an edge in the list of its line.
+    fn word(&self, index: u32, walk: &EdgeWalk) -> Word {
+        let below = if self.along.is_some() { walk.m - 1 - walk.r } else { 0 };
+        Word { column: walk.c, below, index }
     }
 
     /// The new list becomes the old one, whose first word is in C.

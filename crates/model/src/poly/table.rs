@@ -9,6 +9,17 @@ pub(super) struct Record {
     pub walk: EdgeWalk,
     /// n: lines left.
     pub lines: u32,
+    /// With bilinear colours: those of the edge.
+    pub colours: Colours,
+}
+
+/// Red, green and blue of an edge, words of b + r bits.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) struct Colours {
+    /// i: on the edge's line.
+    pub values: [u64; 3],
+    /// di: to the next line.
+    pub steps: [u64; 3],
 }
 
 /// A word of the order list: the first line of an edge, and its place in the table.
@@ -25,8 +36,17 @@ pub(super) struct Order {
 pub(super) struct Word {
     /// C, signed, COLW bits.
     pub column: i32,
+    /// With bilinear colours 2^F - 1 - R, else 0: of equal columns the smaller comes first.
+    pub below: i32,
     /// Place of the edge.
     pub index: u32,
+}
+
+impl Word {
+    /// Stands left of another word.
+    pub fn is_before(&self, other: &Word) -> bool {
+        (self.column, self.below) < (other.column, other.below)
+    }
 }
 
 /// What is known of a polygon: one is loaded while another is walked.

@@ -4,7 +4,7 @@ use super::Poly;
 use super::table::{Record, Word};
 use crate::tokens::{EdgeWalk, Prim};
 use crate::view::{Shape, View, increment, modulo, word};
-use edgewalk_machine::Plan;
+use edgewalk_machine::{COLOURS, Plan};
 
 /// Rows of a table: so many words of a list are shown, those that are read or written next.
 const ROWS: usize = 8;
@@ -55,6 +55,10 @@ impl<const C: usize> Poly<C> {
             edges,
             putting.map_or(0, |putting| putting.place),
         );
+        if let Some((at, found)) = self.load.sought() {
+            view.number("at", "clocks for which an edge's colours have been sought", 8, at);
+            view.flag("found", "the colours of the edge are found", found);
+        }
         view.number("okey", "its first line", w.line, putting.map_or(0, |putting| putting.key.line));
         view.live(None);
         view.table(
@@ -100,7 +104,8 @@ impl<const C: usize> Poly<C> {
             view.cell("lines left", || Shape::whole(plan.widths().line + 1), record.lines.into());
             view.live(None);
         };
-        let record = c.map_or_else(Record::default, |c| Record { walk: c.walk, lines: c.lines });
+        let record =
+            c.map_or_else(Record::default, |c| Record { walk: c.walk, lines: c.lines, colours: c.colours });
         stage("C, the word that is worked at", "C", c.map(|c| c.index), record, view);
         let entering = c.is_some_and(|c| c.entering);
         view.flag("entering", "the edge in C begins on the next line", entering);
@@ -147,8 +152,8 @@ impl<const C: usize> Poly<C> {
         view.live(Some(full));
         let pair = pair.unwrap_or_default();
         view.number("pair_y", "its line", plan.widths().line, pair.y);
-        view.signed("pair_left", "its left column", column, pair.columns[0].into());
-        view.signed("pair_right", "the column right of it", column, pair.columns[1].into());
+        view.signed("pair_left", "its left column", column, pair.columns()[0].into());
+        view.signed("pair_right", "the column right of it", column, pair.columns()[1].into());
         view.live(None);
     }
 
@@ -166,12 +171,13 @@ impl<const C: usize> Poly<C> {
         view.flag("neg", "to the left", left);
         view.table("values, LSB", &["V", "D", "d0"], false);
         let [step, down] = self.mover.steps();
-        for (i, channel) in plan.channels().iter().enumerate() {
+        for (i, channel) in plan.planes() {
             view.row(channel.name);
             view.cell("where MOVER stands", || word(channel), line.values[i]);
             view.cell("the step in x that comes next", || increment(channel), step[i]);
             view.cell("to the next line", || increment(channel), down[i]);
         }
+        self.view_between(plan, view);
         view.live(None);
         view.table("held, LSB", &["g"], true);
         for (i, channel) in plan.channels().iter().enumerate() {
@@ -184,11 +190,37 @@ impl<const C: usize> Poly<C> {
         }
     }
 
+    /// Bilinear colours of the span.
+    fn view_between(&self, plan: &Plan, view: &mut View) {
+        let Some(between) = self.mover.between() else { return };
+        let (turns, [apart, rest], differences, parts) = between.state();
+        let bits = plan.channels()[COLOURS.start].word();
+        let key = plan.widths().column + plan.edge_fraction;
+        view.flag("dividing", "bits of T, then of G are found", between.dividing());
+        view.number("turns", "bits found", (2 * bits + 2).ilog2() + 1, turns);
+        view.number("apart", "from edge to edge, 2^-F px", key, apart as u64);
+        view.number("rest", "of the division, below `apart`", key, rest as u64);
+        view.flag("offers", "the span is offered", between.offers());
+        view.table("colours, LSB", &["V", "N", "A / 2^k"], false);
+        let (line, ..) = self.mover.way();
+        for (k, channel) in plan.channels()[COLOURS].iter().enumerate() {
+            view.row(channel.name);
+            let (shape, signed) = (|| word(channel), || increment(channel));
+            view.cell("of the left edge, then at the first pixel", shape, line.values[COLOURS.start + k]);
+            view.cell("the right less the left edge", signed, modulo(differences[k], channel.word()));
+            view.cell("what the bits so far make of it", signed, parts[k]);
+        }
+    }
+
     fn say(&self, prim: Option<&Prim<C>>, fresh_queued: bool, line_taken: bool, view: &mut View) {
         let fires = prim.filter(|prim| self.prim_ready(prim, fresh_queued));
         let (_, loaded, putting) = self.load.loading();
         let through = prim.is_some_and(|prim| self.load.is_through(prim));
-        let loads = prim.is_some() && !through && putting.is_none() && !self.pass.writes();
+        let seeks = prim.is_some() && !through && self.load.sought().is_some_and(|(_, found)| !found);
+        if self.load.sought().is_some() {
+            view.says(seeks, "LOAD finds the colours of an edge: clock {at}.");
+        }
+        let loads = prim.is_some() && !through && !seeks && putting.is_none() && !self.pass.writes();
         view.says(loads, "LOAD takes an edge into the table.");
         view.says(
             putting.is_some(),
@@ -221,6 +253,10 @@ impl<const C: usize> Poly<C> {
         let waits = self.pass.pair().is_some();
         view.says(waits, "pair {pair_left} to {pair_right} of line {pair_y} waits for MOVER.");
         let there = self.line().is_some();
+        if let Some(between) = self.mover.between() {
+            let divides = between.dividing();
+            view.says(divides, "the colours are found from edge to edge: {turns} bits so far.");
+        }
         view.says(
             self.mover.has_span() && !there,
             "MOVER goes to line {line}, column {first}: {md} in halves to go.",

@@ -10,7 +10,7 @@ use edgewalk_machine::{Channel, Fill, Plan};
 pub(super) fn prepare<const C: usize>(plan: &Plan, sorted: &Sorted<C>, parts: &Parts, prim: &mut Prim<C>) {
     let masks = word_masks::<C>(plan);
     let word = |i: usize, value: i128| value as u64 & masks[i];
-    for (i, channel) in plan.channels().iter().enumerate() {
+    for (i, channel) in plan.planes() {
         let plane = Plane::new(plan, sorted, i, channel);
         prim.gradient[i] = word(i, plane.gradient());
         if plan.polygon.is_there() {

@@ -81,12 +81,13 @@ impl Timing {
             EdgeKind::Slope => (plan.edge_fraction, plan.edge_fraction.div_ceil(2) + 2),
         };
         let mut rounds = Vec::new();
-        for (i, round) in plan.channels().chunks(lanes).enumerate() {
+        let planes: Vec<_> = plan.planes().collect();
+        for round in planes.chunks(lanes) {
             let most = |clocks: &dyn Fn(u32) -> u32| {
-                round.iter().map(|c| clocks(c.fraction - c.vertex_fraction)).max().unwrap_or(0) // never empty
+                round.iter().map(|(_, c)| clocks(c.fraction - c.vertex_fraction)).max().unwrap_or(0) // never empty
             };
             let (dbl, dbl2) = (most(&|up| (t + up).div_ceil(2)), most(&|up| (2 * t + up).div_ceil(2)));
-            let bits = round.iter().map(|c| c.vertex_bits()).max().unwrap_or(0);
+            let bits = round.iter().map(|(_, c)| c.vertex_bits()).max().unwrap_or(0);
             let gx = 3 * FITS + 1 + dbl;
             let clocks = gx
                 + if textbook {
@@ -95,7 +96,7 @@ impl Timing {
                     let (d0, d1, start) = (dbl, 1, 1);
                     d0 + d1 + start
                 };
-            let channels = ((1 << round.len()) - 1) << (i * lanes);
+            let channels = round.iter().map(|(place, _)| 1 << place).sum::<u32>();
             let counts = from_fn(|i| -i64::from(channels >> i & 1));
             rounds.push(Round { channels, counts, long: long(bits), bits, gx, clocks });
         }

@@ -3,13 +3,13 @@
 //! Rules: `docs/machine.md`, section 19, "Setup".
 
 use super::clocks::Timing;
-use super::edges::{self, Screen};
+use super::edges::{self, Parts, Screen};
 use super::sort::Sorted;
 use super::spent::SetupClocks;
 use super::{Culled, channels};
 use crate::Events;
 use crate::tokens::Prim;
-use edgewalk_machine::{Plan, Role};
+use edgewalk_machine::{COLOURS, Plan, Role};
 
 /// The clocks of a token, and why it gives no prim; if it gives one, without tag and numbers.
 pub(super) fn prepare<const C: usize>(
@@ -53,11 +53,27 @@ pub(super) fn prepare<const C: usize>(
         minor: [edges::walk(plan, a, b, j0, lines(upper, n1)), edges::walk(plan, b, c, j1, lines(lower, n2))],
         ..Prim::default()
     };
+    if plan.polygon.is_bilinear() {
+        ends_of_edges(plan, sorted, &parts, prim);
+    }
     if area == 0 || !role.ends() {
         return (SetupClocks { phase1: Timing::without_plane(phase1), phase2: 0 }, None);
     }
     channels::prepare(plan, sorted, &parts, prim);
     (SetupClocks { phase1, phase2: timing.phase2_of_plane(sorted, scale, area) }, None)
+}
+
+/// What POLY makes colours along edges of.
+fn ends_of_edges<const C: usize>(plan: &Plan, sorted: &Sorted<C>, parts: &Parts, prim: &mut Prim<C>) {
+    let w = plan.widths();
+    let length = |length: i64| length as u32 & (u32::MAX >> (33 - w.difference)); // DW - 1 bits
+    let [a, b, c] = &sorted.corners;
+    prim.heights = [c.v - a.v, b.v - a.v, c.v - b.v].map(length);
+    let down = |line: i64, from: i64| length((line << w.center_fraction) - from);
+    prim.down = [down(parts.drawn(), a.v), down(parts.first[1], b.v)];
+    for (values, place) in prim.colours.iter_mut().zip(COLOURS) {
+        *values = [a, b, c].map(|corner| corner.values[place] as u32); // unsigned, at most 32 bits
+    }
 }
 
 /// Counts a token that gives a prim and is cut by its window.

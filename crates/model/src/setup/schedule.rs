@@ -210,8 +210,10 @@ impl<const C: usize> Work<'_, C> {
         let [a, b, c] = &self.sorted.corners;
         let (dv1, dv2) = (b.v - a.v, c.v - a.v);
         let mut jobs = Vec::new();
-        for (round, channels) in plan.channels().chunks(plan.lanes as usize).enumerate() {
-            let places = || (0..channels.len()).map(|lane| round * plan.lanes as usize + lane);
+        let planes: Vec<_> = plan.planes().collect();
+        for (round, in_round) in planes.chunks(plan.lanes as usize).enumerate() {
+            let places = || in_round.iter().map(|(place, _)| *place);
+            let channels: Vec<_> = in_round.iter().map(|(_, channel)| *channel).collect();
             let widest = channels.iter().map(|channel| channel.bits + channel.vertex_fraction).max();
             let long = 3 + widest.unwrap_or(0).div_ceil(2);
             let take = |mut all: Box<dyn Iterator<Item = (i64, i64)>>| {
@@ -270,7 +272,7 @@ impl<const C: usize> Work<'_, C> {
                     }
                 }
             }
-            if (round + 1) * (plan.lanes as usize) < plan.channels().len() {
+            if (round + 1) * (plan.lanes as usize) < planes.len() {
                 let taken: u32 = jobs[behind_gx..].iter().map(|(_, clocks)| clocks).sum();
                 let scaled = 4 + self.scale(round + 1);
                 jobs.extend((scaled > taken).then(|| (Job::Area, scaled - taken)));
@@ -284,7 +286,7 @@ impl<const C: usize> Work<'_, C> {
     fn scale(&self, round: usize) -> u32 {
         let lanes = self.plan.lanes as usize;
         let [a, b, c] = &self.sorted.corners;
-        let places = (round * lanes..self.plan.channels().len()).take(lanes);
+        let places = self.plan.planes().map(|(place, _)| place).skip(round * lanes).take(lanes);
         let ends = [(b, a), (a, c), (b, c)];
         let differences = places.flat_map(|i| ends.map(|(to, from)| to.values[i] - from.values[i]));
         let longest = differences.fold(0, |all, d| all | if d < 0 { -d - 1 } else { d });

@@ -6,25 +6,20 @@
 //!
 //! Rules: `docs/machine.md`, section 2, "The sequencer".
 
+mod listing;
+
+use self::listing::{Block, Listing};
 use super::edges::{Parts, Screen};
 use super::sort::{Corner, Sorted};
 use super::spent::SetupClocks;
 use crate::tokens::Prim;
-use edgewalk_machine::sequencer::word::{Act, Control, Drop, Factor, Word};
+use edgewalk_machine::sequencer::word::{Act, Control, Drop};
 use edgewalk_machine::sequencer::{Program, edges_are_beside, rounds};
-use edgewalk_machine::{Plan, Role};
+use edgewalk_machine::{EdgeKind, Fill, Plan, Role};
 use std::ops::Range;
 
 /// Clocks from the word that loads g until its first skipped digit shows.
 const SKIP_SHOWS: u32 = 3;
-
-/// Words of the listing that stand behind one another, and how far the word that waits for the last skipped digit stands behind the
-/// one that loads g.
-#[derive(Clone, Copy, Debug)]
-struct Block {
-    words: u32,
-    wait: u32,
-}
 
 /// The channels that the lanes do side by side.
 #[derive(Clone, Debug)]
@@ -36,17 +31,40 @@ struct Round {
     bits: u32,
 }
 
+/// Words of a part's values in textbook fill.
+#[derive(Clone, Copy, Debug)]
+struct PartWords {
+    /// Up to the first round, if the part has lines; the first of them is executed in any case.
+    enter: u32,
+    /// Of a round.
+    round: Block,
+    /// Of a round up to the test whether the differences fit.
+    test: u32,
+    scale: u32,
+}
+
+/// Behind the sums of gx.
+#[derive(Clone, Copy, Debug)]
+enum Values {
+    /// Exact fill: the triangle is sheared before the rounds, and each round goes on with d0 and start.
+    Sheared { shear: [Block; 3], d0: Block, start: Block, round_end: u32 },
+    /// Textbook fill: words before the rounds, behind gx of a round, and those of the parts.
+    Parts { before: u32, round_end: u32, parts: [PartWords; 2] },
+}
+
 /// The counts of a machine's program.
 #[derive(Clone, Debug)]
 pub(crate) struct ProgramClocks {
     /// log2 P.
     t: u32,
+    /// F of slope edges, else 0.
+    edge_fraction: u32,
     /// Digits of a factor behind its sign.
     digits: u32,
     beside: bool,
     no_lines: u32,
     no_columns: u32,
-    /// Up to the area, by the test that finds a column.
+    /// Up to the area, by the test that finds a column; in textbook fill there is none.
     columns: [u32; 4],
     area: Block,
     no_area: u32,
@@ -54,14 +72,10 @@ pub(crate) struct ProgramClocks {
     calls: [u32; 3],
     edge: Block,
     slow: Block,
-    shear: [Block; 3],
     /// Up to the test whether the differences fit.
     differences: Block,
     scale: u32,
-    d0: Block,
-    start: Block,
-    /// Behind the sum of start.
-    round_end: u32,
+    values: Values,
     /// Behind the rounds, up to the word that waits for room.
     room: u32,
     /// L.
@@ -70,50 +84,11 @@ pub(crate) struct ProgramClocks {
     rounds: Vec<Round>,
 }
 
-/// Finds places in a program.
-struct Listing(Program);
-
-impl Listing {
-    fn label(&self, name: &str) -> usize {
-        let place = self.0.labels().find(|(label, _)| *label == name).map(|(_, place)| place);
-        place.expect("the listing has the labels of its sums and branches").into()
-    }
-
-    /// The first word from a place on of which this holds.
-    fn find(&self, from: usize, is: impl Fn(&Word) -> bool) -> usize {
-        let found = self.0.words[from..].iter().position(is);
-        from + found.expect("the listing has a word for each branch")
-    }
-
-    fn branch(&self, control: Control) -> usize {
-        self.find(0, |word| word.control == control)
-    }
-
-    /// Words behind the one that waits for room: two loops, over edges and rounds, and what stands between and behind them.
-    fn load(&self, room: usize, edges: u32, rounds: u32) -> u32 {
-        let done = self.find(room, |word| word.act == Some(Act::Done));
-        let length = |label: &str| {
-            let first = self.label(label);
-            (self.branch(Control::Rounds(first as u16)) + 1 - first) as u32
-        };
-        (done - room) as u32 + (edges - 1) * length("edges") + (rounds - 1) * length("given")
-    }
-
-    fn block(&self, places: Range<usize>) -> Block {
-        let loads_g = |word: &Word| word.factor.is_some_and(|(factor, _)| factor == Factor::G);
-        let words = places.len() as u32;
-        let wait = self.find(places.start, |word| word.control == Control::Settle);
-        let load = self.0.words[places.start..wait].iter().rposition(loads_g);
-        let load = places.start + load.expect("a sum loads its factors before it waits for their digits");
-        Block { words, wait: (wait - load) as u32 }
-    }
-}
-
 impl ProgramClocks {
     pub(super) fn new(plan: &Plan) -> ProgramClocks {
         let listing = Listing(Program::of(plan));
         let label = |name: &str| listing.label(name);
-        let at = |name| listing.label(name) as u16;
+        let at = |name: &str| listing.label(name) as u16;
         let lanes = plan.lanes as usize;
         let beside = edges_are_beside(plan);
         let all = plan.channels();
@@ -127,14 +102,14 @@ impl ProgramClocks {
             Round { channels, doublings, bits }
         });
         let rounds: Vec<Round> = rounds.collect();
-        let drops = |drop| listing.find(0, |word| word.act == Some(Act::Drop(drop)));
+        let textbook = plan.fill == Fill::Textbook;
         let area_test = listing.branch(Control::Negative(at("noarea")));
-        let mut columns = [0; 4];
-        let mut place = 0;
-        for exit in &mut columns {
-            place = listing.find(place, |word| word.control == Control::Negative(at("area"))) + 1;
-            *exit = place as u32;
-        }
+        let (columns, no_columns) = if textbook {
+            ([label("area") as u32; 4], 0)
+        } else {
+            let dropped = listing.find(0, |word| word.act == Some(Act::Drop(Drop::Columns)));
+            (listing.columns(), dropped as u32 + 1)
+        };
         let call = |from| listing.find(from, |word| word.control == Control::Call(at("edge")));
         let (calls, last) = if beside {
             let call = call(area_test);
@@ -146,17 +121,9 @@ impl ProgramClocks {
             let words = [upper - area_test, lower + 1 - label("minor2"), last + 1 - label("major")];
             (words.map(|words| words as u32), last)
         };
-        let sums: Vec<usize> = (last + 1..label("round"))
-            .filter(|place| listing.0.words[*place].control == Control::Digits)
-            .map(|place| place + 1)
-            .collect();
-        let shear =
-            [last + 1..sums[0], sums[0]..sums[1], sums[1]..sums[2]].map(|places| listing.block(places));
-        let tail = (label("round") - sums[2]) as u32;
         let returns = listing.find(label("edge"), |word| word.control == Control::Return);
         let unfit_edge = listing.branch(Control::Unfit(at("slow")));
         let unfit = listing.branch(Control::Unfit(at("scale")));
-        let again = listing.branch(Control::Rounds(at("round")));
         let room = listing.branch(Control::Room);
         let scaled = listing.find(label("scale"), |word| word.act == Some(Act::Scale));
         let fits = listing.find(label("slow"), |word| word.control == Control::Goto(at("fits")));
@@ -166,25 +133,50 @@ impl ProgramClocks {
             Block { words: block.words + (to - label(behind)) as u32, ..block }
         };
         debug_assert!(unfit_edge < returns);
+        let again = listing.branch(Control::Rounds(at("round")));
+        let (values, behind) = if textbook {
+            let part = |from: usize, rounds: &str, sum: &str, behind: &str, scale: &str| {
+                let again = listing.branch(Control::Rounds(at(rounds)));
+                let unfit = listing.branch(Control::Unfit(at(scale)));
+                let scaled = listing.find(label(scale), |word| word.act == Some(Act::Scale));
+                PartWords {
+                    enter: (label(rounds) - from) as u32,
+                    round: looped(label(rounds), sum, behind, again + 1),
+                    test: (unfit + 1 - label(rounds)) as u32,
+                    scale: (scaled + 1 - label(scale)) as u32,
+                }
+            };
+            let below = label("below");
+            let parts = [
+                part(again + 1, "parta", "pa", "pa1", "scalea"),
+                part(below, "partb", "pb", "pb1", "scaleb"),
+            ];
+            let before = (label("round") - last - 1) as u32;
+            let round_end = (again + 1 - label("gx1")) as u32;
+            (Values::Parts { before, round_end, parts }, listing.branch(Control::Rounds(at("partb"))))
+        } else {
+            let d0 = listing.block(label("gx1")..label("d0"));
+            let start = listing.block(label("d01")..label("st"));
+            let round_end = (again + 1 - label("st1")) as u32;
+            (Values::Sheared { shear: listing.shear(last + 1), d0, start, round_end }, again)
+        };
         ProgramClocks {
             t,
+            edge_fraction: if plan.edge_kind == EdgeKind::Slope { plan.edge_fraction } else { 0 },
             digits: plan.widths().center + 1,
             beside,
             no_lines: listing.branch(Control::Negative(at("nolines"))) as u32 + 2,
-            no_columns: drops(Drop::Columns) as u32 + 1,
+            no_columns,
             columns,
             area: listing.block(label("area")..area_test + 1),
             no_area: 1,
             calls,
             edge: looped(label("edge"), "ed", "ed1", returns + 1),
             slow: looped(label("slow"), "sl", "sl1", fits + 1),
-            shear: [shear[0], shear[1], Block { words: shear[2].words + tail, ..shear[2] }],
             differences: listing.block(label("round")..unfit + 1),
             scale: (scaled + 1 - label("scale")) as u32,
-            d0: listing.block(label("gx1")..label("d0")),
-            start: listing.block(label("d01")..label("st")),
-            round_end: (again + 1 - label("st1")) as u32,
-            room: (room - again) as u32,
+            values,
+            room: (room - behind) as u32,
             load: listing.load(room, if beside { 1 } else { 3 }, rounds.len() as u32),
             rounds,
         }
@@ -211,14 +203,7 @@ impl ProgramClocks {
             return culled(front + self.no_area);
         }
         let edges = self.edges(sorted, parts);
-        let q = i64::from(prim.major.q);
-        let h = (i64::from(prim.line) << self.t) - a.v;
-        let of_q = |block: &Block| self.count(*block, [q, 0], 0) + length([q, 0]) - 1;
-        let shear: u32 = self.shear.iter().map(of_q).sum();
-        let x = i64::from(prim.major.c) - i64::from(prim.major_right);
-        let down = [q * dv2 - du2, q * dv1 - du1];
-        let across = [(x << self.t) - a.u - q * h, h];
-        let mut clocks = front + edges + shear + self.room;
+        let mut clocks = front + edges + self.room;
         let side = if area < 0 { -1 } else { 1 };
         let (mut modulus, mut scale) = (area.abs(), 0);
         for round in &self.rounds {
@@ -236,14 +221,62 @@ impl ProgramClocks {
             }
             let doubled = round.doublings + scale - 1;
             clocks += differences + sum(along);
-            clocks += self.count(self.d0, down, doubled) + sum(down);
-            clocks += self.count(self.start, across, doubled) + sum(across) + self.round_end;
+            clocks += match &self.values {
+                Values::Sheared { d0, start, round_end, .. } => {
+                    let q = i64::from(prim.major.q);
+                    let h = (i64::from(prim.line) << self.t) - a.v;
+                    let x = i64::from(prim.major.c) - i64::from(prim.major_right);
+                    let down = [q * dv2 - du2, q * dv1 - du1];
+                    let across = [(x << self.t) - a.u - q * h, h];
+                    let d0 = self.count(*d0, down, doubled) + sum(down);
+                    d0 + self.count(*start, across, doubled) + sum(across) + round_end
+                }
+                Values::Parts { round_end, .. } => round_end + doubled,
+            };
         }
+        clocks += match &self.values {
+            Values::Sheared { shear, .. } => {
+                let q = [i64::from(prim.major.q), 0];
+                shear.iter().map(|block| self.count(*block, q, 0) + length(q) - 1).sum::<u32>()
+            }
+            Values::Parts { before, parts: words, .. } => {
+                let of_parts = words.iter().enumerate();
+                before + of_parts.map(|(part, words)| self.part(words, sorted, parts, part)).sum::<u32>()
+            }
+        };
         SetupClocks { phase1: clocks, phase2: self.load }
+    }
+
+    /// The values of a part in textbook fill.
+    fn part<const C: usize>(&self, words: &PartWords, sorted: &Sorted<C>, parts: &Parts, part: usize) -> u32 {
+        if parts.lines[part] == 0 {
+            return 1;
+        }
+        let (from, to) = sorted.left_edge(part);
+        let down = [(parts.first[part] << self.t) - from.v, 0];
+        let (mut modulus, mut scale) = ((to.v - from.v) << self.t, 0);
+        let mut clocks = words.enter;
+        for round in &self.rounds {
+            let fits = |modulus: i64| {
+                let mut differences = round.channels.clone().map(|i| to.values[i] - from.values[i]);
+                differences.all(|d| (-modulus..modulus).contains(&d))
+            };
+            while !fits(modulus) {
+                modulus <<= 3;
+                scale += 3;
+                clocks += words.test + words.scale;
+            }
+            let doubled = round.doublings + scale - 1;
+            clocks += self.count(words.round, down, doubled) + sum(down) + doubled;
+        }
+        clocks
     }
 
     /// The words up to the area; none if there is no column.
     fn columns<const C: usize>(&self, screen: Screen, sorted: &Sorted<C>) -> Option<u32> {
+        if matches!(self.values, Values::Parts { .. }) {
+            return Some(self.columns[0]);
+        }
         let [i0, i1, i2] = screen.columns(self.t, sorted);
         let tests = [i2 < i0, i1 < i0, i0 < i2, i0 < i1 || sorted.role != Role::Triangle];
         tests.iter().position(|found| *found).map(|test| self.columns[test])
@@ -267,18 +300,19 @@ impl ProgramClocks {
 
     /// Edges side by side, each from its upper end to its lower, and its first line.
     fn edge<const C: usize>(&self, edges: &[(&Corner<C>, &Corner<C>, i64)]) -> u32 {
-        let p = 1 << self.t;
+        let (p, o) = (1 << self.t, i64::from(matches!(self.values, Values::Parts { .. })));
         let (mut slow, mut factors, mut differences) = (false, [0, 0], [0, 0]);
         let mut signs = 0;
         for (from, to, line) in edges {
             let (dx, modulus) = (to.u - from.u, (to.v - from.v) << self.t);
             slow |= !(-modulus..modulus).contains(&dx);
-            factors[0] |= from.u & (p - 1);
+            factors[0] |= (from.u + o) & (p - 1);
             factors[1] |= (line << self.t) - from.v;
             differences[0] |= dx;
             signs |= magnitude(dx);
         }
-        let mut clocks = self.count(self.edge, factors, self.t - 1) + sum(factors) + 2 * (self.t - 1);
+        let mut clocks = self.count(self.edge, factors, self.t + self.edge_fraction - 1) + sum(factors);
+        clocks += 2 * (self.t - 1) + self.edge_fraction.saturating_sub(1);
         if slow {
             // The digits of all of them, and as many as the longest has.
             let digits = bits(signs);
@@ -303,17 +337,33 @@ impl ProgramClocks {
     pub(super) fn longest(&self) -> SetupClocks {
         let block = |block: Block, more: u32| self.words(block, self.digits, more);
         let sum = 3 * self.digits;
-        let edge = block(self.edge, self.t - 1) + sum + 2 * (self.t - 1) + block(self.slow, 0) + sum;
+        let doubled = self.t + self.edge_fraction - 1;
+        let edge = block(self.edge, doubled) + 2 * sum + 2 * doubled + block(self.slow, 0);
         let edges = self.calls.iter().sum::<u32>() + if self.beside { edge } else { 2 + 3 * edge };
         let single = |of: &Block| block(*of, 0) + self.digits - 1;
-        let front = self.columns[3] + single(&self.area) + edges + self.shear.iter().map(single).sum::<u32>();
+        let front = self.columns[3] + single(&self.area) + edges;
         let scales = self.rounds.iter().map(|round| round.bits / 3 + 1).max().unwrap_or(0);
         let rounds = self.rounds.iter().map(|round| {
             let doubled = round.doublings + 3 * scales - 1;
-            let sums = block(self.d0, doubled) + block(self.start, doubled) + 3 * sum;
-            block(self.differences, 0) + sums + self.round_end
+            let values = match &self.values {
+                Values::Sheared { d0, start, round_end, .. } => {
+                    block(*d0, doubled) + block(*start, doubled) + 2 * sum + round_end
+                }
+                Values::Parts { round_end, parts, .. } => {
+                    let part = |words: &PartWords| block(words.round, doubled) + sum + doubled;
+                    round_end + doubled + parts.iter().map(part).sum::<u32>()
+                }
+            };
+            block(self.differences, 0) + sum + values
         });
-        let scaled = scales * (block(self.differences, 0) + self.scale);
+        let once = match &self.values {
+            Values::Sheared { shear, .. } => shear.iter().map(single).sum::<u32>(),
+            Values::Parts { before, parts, .. } => {
+                let part = |words: &PartWords| words.enter + scales * (words.test + words.scale);
+                before + parts.iter().map(part).sum::<u32>()
+            }
+        };
+        let scaled = scales * (block(self.differences, 0) + self.scale) + once;
         let phase1 = (front + rounds.sum::<u32>() + scaled + self.room).max(self.no_columns);
         SetupClocks { phase1, phase2: self.load }
     }

@@ -148,7 +148,11 @@ impl<const C: usize> Setup<C> {
         view.flag("major_right", "the major edge is the right one", prim.major_right);
         if plan.polygon.is_there() {
             view.number("sides", "major, first and second minor edge that count, a bit each", 3, prim.sides);
-            view.flag("ends", "the last edges of a polygon, with its plane", prim.ends);
+            view.flag(
+                "ends",
+                "1: a whole triangle or line, or the last edges of a polygon with its plane",
+                prim.ends,
+            );
             view.flag("void", "the plane has no area", prim.void);
             let [x, y] = plan.window_bits();
             view.number("start_x", "column at which values start", x, prim.start_pixel[0]);
@@ -172,7 +176,7 @@ impl<const C: usize> Setup<C> {
         view.live(Some(done));
         let names: Vec<&str> = results(plan).iter().map(|(name, _)| *name).collect();
         view.table("increments, LSB", &names, true);
-        for (i, channel) in plan.channels().iter().enumerate() {
+        for (i, channel) in plan.planes() {
             view.row(channel.name);
             for (name, doc) in results(plan) {
                 let value = match (plan.fill, *name) {

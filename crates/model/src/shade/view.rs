@@ -28,8 +28,12 @@ impl<const C: usize> Shade<C> {
         view.flag("loading", "tables are being read", loading);
         view.wire(|| "loading".to_owned());
         view.table("stages", &["fragment"], false);
-        let names = ["A", "B", "G", "M", "C"].into_iter();
-        let names = names.filter(|name| (*name != "M" || self.multiplies) && (*name != "G" || self.weakens));
+        let names = ["A", "B", "G", "L", "M", "C"].into_iter();
+        let names = names.filter(|name| match *name {
+            "L" | "M" => self.multiplies,
+            "G" => self.weakens,
+            _ => true,
+        });
         for (name, stage) in names.zip(self.stages.iter()) {
             let values = stage.map(|Shaded { frag, own, product }| {
                 let mut values = frag.values;

@@ -50,6 +50,19 @@ impl Shape {
         Shape::Number { bits, fraction: 0, signed: true, modular: false }
     }
 
+    /// The number that these bits stand for; one without sign of more than 63 bits as its low 63.
+    #[must_use]
+    pub(crate) fn value(self, bits_of: u64) -> i64 {
+        match self {
+            Shape::Number { bits, signed: true, .. } if bits < 64 => {
+                let shift = 64 - bits;
+                (bits_of << shift) as i64 >> shift
+            }
+            Shape::Number { signed: true, .. } => bits_of as i64,
+            _ => (bits_of & (u64::MAX >> 1)) as i64,
+        }
+    }
+
     /// Bits that are recorded.
     #[must_use]
     pub const fn bits(self) -> u32 {

@@ -14,12 +14,12 @@ impl EdgeWalk {
         let (column, remainder) = (plan.widths().column, remainder_bits(plan));
         let mut cell = |part: &str, doc: &str, shape: Shape, value: i32| {
             view.cell(doc, || shape, modulo(value.into(), shape.bits()));
-            if let Some(wires) = wires.filter(|_| part != "r") {
+            if let Some(wires) = wires.filter(|_| part != "dist") {
                 view.wire(|| format!("{wires}_{part}"));
             }
         };
-        cell("c", "first column right of the edge", Shape::signed(column), self.c);
-        cell("r", "distance from the edge to that column, 1/M column", Shape::whole(remainder), self.r);
+        cell("c", "first column on or right of the edge", Shape::signed(column), self.c);
+        cell("dist", "distance from the edge to that column, 1/M column", Shape::whole(remainder), self.r);
         cell("q", "whole columns a line", Shape::signed(column), self.q);
         cell("f", "1/M column a line", Shape::whole(remainder), self.f);
         // The modulus of a slope is 2^F, and no register.

@@ -52,14 +52,3 @@ pub(super) fn duplicate_modules(netlist: &Netlist) -> Vec<(String, Fault)> {
     faults.dedup();
     faults
 }
-
-pub(super) fn has_clock(netlist: &Netlist) -> bool {
-    !netlist.registers.is_empty()
-        || !netlist.memories.is_empty()
-        || netlist.instances.iter().any(|instance| instance.module.has_clock)
-}
-
-pub(super) fn has_reset(netlist: &Netlist) -> bool {
-    netlist.registers.iter().any(|register| register.reset.is_some())
-        || netlist.instances.iter().any(|instance| instance.module.has_reset)
-}

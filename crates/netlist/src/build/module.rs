@@ -200,8 +200,8 @@ impl Module {
         if !errors.is_empty() {
             return Err(BuildErrors(errors));
         }
-        netlist.has_clock = check::has_clock(&netlist);
-        netlist.has_reset = check::has_reset(&netlist);
+        netlist.has_clock = netlist.needs_clock();
+        netlist.has_reset = netlist.needs_reset();
         match paths::of_outputs(&netlist) {
             Ok(paths) => netlist.paths = paths,
             Err(path) => {

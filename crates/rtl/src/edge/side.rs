@@ -77,7 +77,7 @@ struct Edge<'m> {
 impl<'m> Edge<'m> {
     fn new(m: &'m Module, name: &'m str, prim: &Token<'m>) -> Edge<'m> {
         let mut own = parts_of_edge(&prim.parts());
-        own.retain(|part| part.name != "r");
+        own.retain(|part| part.name != "dist");
         Edge::of(m, name, own, None)
     }
 
@@ -85,7 +85,7 @@ impl<'m> Edge<'m> {
     fn at_port(m: &'m Module, name: &'m str, prim: &Token<'m>) -> Edge<'m> {
         let (own, mut kept): (Vec<_>, Vec<_>) =
             parts_of_edge(&prim.parts()).into_iter().partition(|part| part.name == "c");
-        kept.retain(|part| part.name != "r");
+        kept.retain(|part| part.name != "dist");
         let at_port = |f: &str| prim[format!("{name}_{f}").as_str()].named(&format!("{name}_{f}"));
         Edge::of(m, name, own, Some(Token::new(kept, at_port)))
     }
@@ -117,7 +117,7 @@ impl<'m> Edge<'m> {
 
     /// R - f of an edge with these parts at its first line.
     fn rest_of(of_prim: impl Fn(&str) -> Signal<'m>) -> Signal<'m> {
-        first_rest(of_prim("r"), of_prim("f"))
+        first_rest(of_prim("dist"), of_prim("f"))
     }
 
     /// What does not step.

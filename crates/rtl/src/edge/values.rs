@@ -53,17 +53,30 @@ pub(super) fn values<'m>(
                 value.when(walk.moves, walk.running.mux(value.q() + added, added));
             }
             Fill::Textbook => {
-                let (d_a, start_b, d_b) = (held("d_a"), held("start_b"), held("d_b"));
-                let at_knee = walk.step & walk.exchanges;
-                value
-                    .when(walk.line_done, value.q() + walk.upper.mux(d_a, d_b))
-                    // Where the left edge is the major one, the knee line begins where it did.
-                    .when(at_knee & line["major_right"].q(), start_b)
-                    .when(walk.offered, choices.has_upper.mux(of_prim("start_a"), of_prim("start_b")));
+                let steps = [held("d_a"), held("start_b"), held("d_b")];
+                let first = choices.has_upper.mux(of_prim("start_a"), of_prim("start_b"));
+                by_parts(walk, line, channel, steps, first);
             }
         }
     }
     increments.token()
+}
+
+/// A channel in textbook fill: a step down the left edge of each part, and its first value.
+fn by_parts<'m>(
+    walk: &Walk<'m>,
+    line: &Registers<'m>,
+    channel: &str,
+    [d_a, start_b, d_b]: [Signal<'m>; 3],
+    first: Signal<'m>,
+) {
+    let at_knee = walk.step & walk.exchanges;
+    let value = line[channel];
+    value
+        .when(walk.line_done, value.q() + walk.upper.mux(d_a, d_b))
+        // Where the left edge is the major one, the knee line begins where it did.
+        .when(at_knee & line["major_right"].q(), start_b)
+        .when(walk.offered, first);
 }
 
 /// The same where the triangle stays at the port, and with it what does not step.
@@ -76,15 +89,27 @@ fn values_at_port<'m>(
     line: &Registers<'m>,
     choices: &Choices<'m>,
 ) -> Token<'m> {
-    m.comment("The channels at the start of the span. Between triangles a value is 0, and what is added is the start.");
+    match plan.fill {
+        Fill::Exact => m.comment("The channels at the start of the span. Between triangles a value is 0, and the addend is the start value."),
+        Fill::Textbook => m.comment("The channels at the start of the span."),
+    }
     for channel in plan.channels().iter().map(|channel| channel.name) {
-        let at_port =
-            |result: &str| prim[format!("{channel}_{result}").as_str()].named(&format!("{channel}_{result}"));
-        let (d0, d1) = (at_port("d0"), at_port("d1"));
-        let added = walk.idle.mux(prim[format!("{channel}_start").as_str()], choices.carry.mux(d1, d0));
+        let of_prim = |result: &str| prim[format!("{channel}_{result}").as_str()];
+        let at_port = |result: &str| of_prim(result).named(&format!("{channel}_{result}"));
         let value = line[channel];
-        let sum = value.q() + added.named(&format!("{channel}_added"));
-        value.reset(0).when(walk.moves, sum).when(walked, 0);
+        match plan.fill {
+            Fill::Exact => {
+                let (d0, d1) = (at_port("d0"), at_port("d1"));
+                let added = walk.idle.mux(of_prim("start"), choices.carry.mux(d1, d0));
+                let sum = value.q() + added.named(&format!("{channel}_added"));
+                value.reset(0).when(walk.moves, sum).when(walked, 0);
+            }
+            Fill::Textbook => {
+                let steps = [at_port("d_a"), at_port("start_b"), at_port("d_b")];
+                let first = choices.has_upper.mux(of_prim("start_a"), steps[1]);
+                by_parts(walk, line, channel, steps, first);
+            }
+        }
     }
     Token::new(parts(&tokens::held_by_edge(plan)), |name| {
         prim.get(name).unwrap_or_else(|| prim[format!("{name}_g").as_str()])

@@ -69,7 +69,7 @@ impl<'m> Walk<'m> {
         // lower part.
         let line_done = match plan.fill {
             Fill::Exact => moves,
-            Fill::Textbook => idle.mux(prim_valid, line_ready & !exchanges).named("line_done"),
+            Fill::Textbook => idle.mux(prim_valid, goes_on & !exchanges).named("line_done"),
         };
         Walk { running, prim_ready, load, step, idle, walked, offered, moves, upper, exchanges, line_done }
     }
@@ -96,7 +96,7 @@ impl<'m> Start<'m> {
         let prim_ready = (!running.q() & !fresh_queued).named("prim_ready");
         let load = (prim_valid & prim_ready).named("load");
         let step = (running.q() & line_ready).named("step");
-        m.comment("Between triangles the registers load the next triangle in every clock until PIXEL has taken the increments, so they need no enable.");
+        m.comment("While EDGE is idle the registers load the offered triangle in every clock. So their enable does not wait for fresh_queued.");
         let idle = m.reg("idle", 1).doc("not running; selects what the registers load").reset(1);
         let at_end = (step & last.q()).named("at_end");
         running.when(at_end, 0).when(load, 1);

@@ -23,7 +23,11 @@ impl<'m> Output<'_, 'm> {
     /// The stages, and whether a fragment is in one of them; the last one is full where `frag_valid` is 1.
     pub fn stages(&self, frag_valid: Reg<'m>) -> (Token<'m>, Signal<'m>) {
         let Output { m, plan, drawing, .. } = *self;
-        m.comment("Output: each stage completes the bits of one more segment.");
+        m.comment(if plan.segments == 1 {
+            "Output register: loads a fragment while PIXEL advances."
+        } else {
+            "Output: each stage completes the bits of one more segment."
+        });
         let address = self.address();
         let mut valid = drawing.emit;
         let mut fragment = Token::default();

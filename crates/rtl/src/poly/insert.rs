@@ -45,7 +45,8 @@ pub(super) struct Register<'m> {
 
 impl<'m> Register<'m> {
     fn new(m: &'m Module, tables: &Tables<'m>, name: &str, doc: &str) -> Register<'m> {
-        let key = m.reg(&format!("{name}_column"), tables.column).doc(doc);
+        let what = if tables.key == tables.column { "column" } else { "key" };
+        let key = m.reg(&format!("{name}_{what}"), tables.key).doc(doc);
         Register { key, index: m.reg(&format!("{name}_index"), tables.index).doc("its number") }
     }
 
@@ -66,9 +67,10 @@ impl<'a, 'm> Inserts<'a, 'm> {
         m.comment("Stage D: does the edge go behind the last of its list, or before some?");
         let count = m.reg("count", tables.index + 1).doc("edges in the list of the next line").reset(0);
         let word = |name: &str, doc: &str| Register::new(m, tables, name, doc);
-        let edge = word("d", "signed, column of the edge on the next line");
-        let head = word("head", "signed, first column of the list");
-        let top = word("top", "signed, last column of the list");
+        let doc = |of: &str| of.replace("column", tables.sorted_by);
+        let edge = word("d", &doc("signed, column of the edge on the next line"));
+        let head = word("head", &doc("signed, first column of the list"));
+        let top = word("top", &doc("signed, last column of the list"));
         let valid = m.reg("d_valid", 1).reset(0);
         let moving = m.reg("moving", 1).doc("words move up for the edge of D").reset(0);
         let before = edge.q().key.slt(top.q().key).named("before_top");

@@ -1,8 +1,10 @@
 //! LOAD: the edges of a polygon go into the table and the order list.
 
+use edgewalk_machine::Plan;
 use edgewalk_machine::units::tokens::EDGES;
 use edgewalk_netlist::{Module, Signal};
 
+use super::along::{Finds, Lengths};
 use super::table::{Tables, Word};
 use crate::stepping::{first_rest, parts_of_edge};
 use crate::wires::Token;
@@ -35,12 +37,21 @@ pub(super) struct Load<'m> {
     pub stores: Signal<'m>,
     pub place: Signal<'m>,
     pub rest: Signal<'m>,
+    /// With bilinear colours: those of the edge on its first line.
+    pub values: Vec<Signal<'m>>,
 }
+
+/// The fields of the prim with the height of an edge, and how far its first line lies below its upper end.
+const HEIGHTS: [&str; 3] = ["height02", "height01", "height12"];
+const DOWN: [&str; 3] = ["down0", "down0", "down1"];
+/// The sorted vertices at the upper and the lower end.
+const ENDS: [[usize; 2]; 3] = [[0, 2], [0, 1], [1, 2]];
 
 /// A side of the prim: its edge, first line and lines.
 #[derive(Clone, Copy)]
 struct Side<'m> {
     edge: &'static str,
+    number: usize,
     first: Signal<'m>,
     lines: Signal<'m>,
     /// There are some.
@@ -49,7 +60,7 @@ struct Side<'m> {
 
 impl<'m> Load<'m> {
     /// The registers of LOAD, and its ports of the memories.
-    pub fn new(m: &'m Module, tables: &Tables<'m>, links: &Links<'_, 'm>) -> Load<'m> {
+    pub fn new(m: &'m Module, plan: &Plan, tables: &Tables<'m>, links: &Links<'_, 'm>) -> Load<'m> {
         let Links { prim_valid, prim, fresh_queued, walking, pass_writes } = *links;
         m.comment("LOAD: the sides of a prim that count and have lines, one after the other.");
         let bits = tables.index;
@@ -66,24 +77,44 @@ impl<'m> Load<'m> {
         };
         let [major, minor1, minor2] = [0, 1, 2].map(is_left);
         let any_left = (major | minor1 | minor2).named("any_left");
+        let finds = Finds::new(m, !tables.colours.is_empty(), prim_valid & any_left);
         let turn = m.cat(&[minor2 & !major & !minor1, minor1 & !major, major]).named("turn");
-        let takes =
-            (prim_valid & !putting.q() & any_left & !pass_writes).named_doc("takes", "a side is loaded");
+        let takes = prim_valid & !putting.q() & any_left & !pass_writes;
+        let takes = finds.as_ref().map_or(takes, |finds| takes & finds.found.q());
+        let takes = takes.named_doc("takes", "a side is loaded");
+        // Where the major edge counts and has no lines no side has any: which one is chosen does not matter.
+        let of_major = (prim["sides"].bit(0) & !did.q().bit(0)).named("of_major");
         let chosen = |of: &dyn Fn(Side<'m>) -> Signal<'m>| {
-            major.mux(of(sides[0]), minor1.mux(of(sides[1]), of(sides[2])))
+            of_major.mux(of(sides[0]), minor1.mux(of(sides[1]), of(sides[2])))
         };
         let first = chosen(&|side| side.first).named("first_line");
         let lines = chosen(&|side| side.lines).named("lines");
         let parts = parts_of_edge(&prim.parts());
         let part = |name: &str| chosen(&|side| prim[format!("{}_{name}", side.edge).as_str()]);
         let edge = Token::new(parts, |name| part(name).named(&format!("loaded_{name}")));
+        let colours = finds.map_or_else(Vec::new, |finds| {
+            finds.found.when(takes, 0);
+            let field = |name: &str| prim[name];
+            let height = chosen(&|side| field(HEIGHTS[side.number])).named("edge_height");
+            let down = chosen(&|side| field(DOWN[side.number])).named("edge_down");
+            let ends = |colour: &str| {
+                [0, 1].map(|end| {
+                    let value = chosen(&|side| field(&format!("{colour}_at{}", ENDS[side.number][end])));
+                    value.named(&format!("{colour}_{}", ["upper", "lower"][end]))
+                })
+            };
+            finds.colours(m, plan, &Lengths { height, down }, &ends)
+        });
 
         let closes = prim["ends"];
         let prim_ready = !putting.q() & !any_left & !(closes & (walking | fresh_queued));
         let prim_ready = prim_ready.named("prim_ready");
         let fires = (prim_valid & prim_ready).named("fires");
         let closes = (fires & closes).named_doc("closes", "the polygon has all its edges");
-        let begins = (closes & edges.q().any() & !over.q() & !prim["void"]).named("begins");
+        // Which sides are left is known last.
+        let may_begin = prim_valid & prim["ends"] & !putting.q() & !walking & !fresh_queued;
+        let may_begin = may_begin & edges.q().any() & !over.q() & !prim["void"];
+        let begins = (may_begin.named("may_begin") & !any_left).named("begins");
         let refused = (closes & over.q()).named("refused");
         bank.when(closes, !bank.q());
         did.when(takes, did.q() | turn).when(fires, 0);
@@ -93,15 +124,22 @@ impl<'m> Load<'m> {
         let stores = (takes & !full).named("stores");
         let place = tables.at(bank.q(), edges.q()).named("load_place");
         tables.steps.write(stores, place, tables.joined_steps(&edge));
-        let rest = first_rest(edge["r"], edge["f"]).named_doc("first_rest", "R - f, signed");
+        for (table, (_, step)) in tables.colours.iter().zip(&colours) {
+            table.steps.write(stores, place, *step);
+        }
+        let rest = first_rest(edge["dist"], edge["f"]).named_doc("first_rest", "R - f, signed");
 
         let order = Order { m, tables, prim_valid, bank: bank.q(), edges: edges.q(), putting: putting.q() };
-        let Ordered { appends, inserts, ended } = order.sort(stores, first);
+        let firsts =
+            First { own: first, of_top: sides[0].first, of_knee: sides[2].first, is_top: of_major | minor1 };
+        let Ordered { appends, inserts, ended } = order.sort(stores, &firsts);
         putting.when(ended, 0).when(inserts, 1);
         edges.when(appends | ended, edges.q() + 1).when(closes, 0);
 
         let (bank, edges) = (bank.q(), edges.q());
-        Load { prim_ready, bank, edges, begins, refused, stores, place, rest: m.cat(&[rest, lines]) }
+        let values = colours.into_iter().map(|(value, _)| value).collect();
+        let rest = m.cat(&[rest, lines]);
+        Load { prim_ready, bank, edges, begins, refused, stores, place, rest, values }
     }
 }
 
@@ -112,6 +150,7 @@ fn sides<'m>(prim: &Token<'m>) -> [Side<'m>; 3] {
     let knee = (first + upper.trunc(first.width())).named_doc("knee", "first line of the lower part");
     let side = |edge: usize, first: Signal<'m>, lines: Signal<'m>, some: Signal<'m>| Side {
         edge: EDGES[edge],
+        number: edge,
         first,
         lines,
         some,
@@ -131,6 +170,15 @@ struct Order<'a, 'm> {
     putting: Signal<'m>,
 }
 
+/// The first line of an edge.
+struct First<'m> {
+    own: Signal<'m>,
+    /// The two lines that it may be, and which of them it is.
+    of_top: Signal<'m>,
+    of_knee: Signal<'m>,
+    is_top: Signal<'m>,
+}
+
 /// What becomes of an edge.
 struct Ordered<'m> {
     /// The edge goes behind the others.
@@ -143,8 +191,9 @@ struct Ordered<'m> {
 
 impl<'m> Order<'_, 'm> {
     /// Sorts an edge in by its first line: of equal lines the earlier edge stays first.
-    fn sort(&self, stores: Signal<'m>, first: Signal<'m>) -> Ordered<'m> {
+    fn sort(&self, stores: Signal<'m>, firsts: &First<'m>) -> Ordered<'m> {
         let Order { m, tables, prim_valid, bank, edges, putting } = *self;
+        let first = firsts.own;
         m.comment("The order list: those that begin later move up, a clock each.");
         let last = m.reg("last_first", tables.line).doc("first line of the last edge of the list");
         let position = m.reg("position", tables.index).doc("the place that is free");
@@ -152,8 +201,11 @@ impl<'m> Order<'_, 'm> {
         let before = position.q().any();
         let own = Word { key: first, index: edges.trunc(tables.index) };
 
-        let later =
-            (first.ge(last.q()) | !edges.any()).named_doc("later", "no edge of the list begins later");
+        // Both lines are compared while it is found out which of them counts.
+        let of_top = firsts.of_top.ge(last.q()).named("top_later");
+        let of_knee = firsts.of_knee.ge(last.q()).named("knee_later");
+        let later = firsts.is_top.mux(of_top, of_knee) | !edges.any();
+        let later = later.named_doc("later", "no edge of the list begins later");
         let appends = (stores & later).named("appends");
         let inserts = (stores & !later).named("inserts");
         // The edge's own number is that of the edges before it, until it is put.
@@ -163,7 +215,7 @@ impl<'m> Order<'_, 'm> {
         let moves = (putting & before & word.key.gt(line.q())).named("moves_up");
         let ended = (putting & !moves).named("ended");
         last.when(appends, first);
-        line.when(inserts, first);
+        line.when(!putting, first);
         position.when(moves, position.q() - 1).when(inserts, edges.trunc(tables.index));
         let place = putting.mux(position.q(), edges.trunc(tables.index)).named("order_place");
         let written = Word::choose(putting, Word::choose(moves, word, put), own);

@@ -4,8 +4,8 @@ use edgewalk_machine::Plan;
 use edgewalk_machine::units::tokens;
 use edgewalk_netlist::{Module, Signal};
 
+use super::between::{Between, Span};
 use super::pass::Pair;
-use crate::light_pass::LightPass;
 use crate::wires::{Registers, Token, parts, plus};
 
 /// What MOVER reads of the rest of POLY.
@@ -18,6 +18,8 @@ pub(super) struct Links<'a, 'm> {
     pub pair: Pair<'m>,
     /// The line is accepted.
     pub line_ready: Signal<'m>,
+    /// PIXEL has not loaded the increments of the span before.
+    pub fresh_queued: Signal<'m>,
 }
 
 /// What MOVER tells.
@@ -30,14 +32,10 @@ pub(super) struct Mover<'m> {
     /// For PIXEL.
     pub increments: Registers<'m>,
     line: Token<'m>,
-}
-
-/// The columns of a pair on the screen.
-struct Columns<'m> {
+    /// The line is the polygon's first.
     first: Signal<'m>,
-    behind: Signal<'m>,
-    /// There are some.
-    some: Signal<'m>,
+    /// The line has increments of its own.
+    fresh: Signal<'m>,
 }
 
 /// Where the values go to.
@@ -56,29 +54,37 @@ struct Way<'m> {
 
 impl<'m> Mover<'m> {
     /// The registers of MOVER.
-    pub fn new(m: &'m Module, plan: &Plan, light_pass: LightPass<'m>, links: &Links<'_, 'm>) -> Mover<'m> {
-        let Links { prim, begins, walking, pair, line_ready } = *links;
-        m.comment("MOVER: the pair that waits, cut to the screen; it is dropped if nothing is left.");
-        let columns = Columns::new(m, plan, light_pass, pair);
+    pub fn new(m: &'m Module, plan: &Plan, links: &Links<'_, 'm>) -> Mover<'m> {
+        let Links { prim, begins, walking, pair, line_ready, fresh_queued } = *links;
+        m.comment("MOVER: the pair that waits; it is dropped if it has no column of the screen.");
         let has_span = m.reg("has_span", 1).doc("a span is offered, or values move to it").reset(0);
         let arrives = m.wire("line_valid", 1);
         let fires = (arrives.q() & line_ready).named("line_fires");
         let free = (!has_span.q() | fires).named("free");
-        let takes = (pair.waits & columns.some & free).named("takes_pair");
-        let pair_leaves = pair.waits & (free | !columns.some);
+        let takes = (pair.waits & pair.some & free).named("takes_pair");
+        let pair_leaves = pair.waits & (free | !pair.some);
         has_span.when(fires, 0).when(takes, 1);
 
-        let way = Way::new(m, plan, links, columns.first, takes);
-        arrives.drive(has_span.q() & !way.down & !way.along);
+        let way = Way::new(m, plan, links, takes);
+        let there = has_span.q() & !way.down & !way.along;
+        let between = Between::new(m, plan, &Span { pair, takes, there, fires, fresh_queued });
+        arrives.drive(between.as_ref().map_or(there, |between| has_span.q() & between.offers));
 
         m.comment("The line that is offered. While no polygon is walked everything takes the next one, again and again.");
         let mut kept = parts(&tokens::line(plan));
         kept.retain(|part| part.name != "major_right" && part.name != "fence");
+        if between.is_some() {
+            kept.retain(|part| part.name != "fresh");
+        }
         let line = Registers::new(m, "line", kept);
         line["y"].when(takes, pair.line);
-        line["cmaj"].when(takes, columns.first);
-        line["cmin"].when(takes, columns.behind);
-        line["fresh"].when(fires, 0).when(!walking, 1);
+        line["cmaj"].when(takes, pair.first);
+        line["cmin"].when(takes, pair.behind);
+        let first = match line.get("fresh") {
+            Some(fresh) => fresh,
+            None => m.reg("line_first", 1).doc("first span of the polygon"),
+        };
+        let first = first.when(fires, 0).when(!walking, 1).q();
         for name in ["thin", "flat", "tag"] {
             if let (Some(register), Some(value)) = (line.get(name), prim.get(name)) {
                 register.when(!walking, value);
@@ -90,8 +96,11 @@ impl<'m> Mover<'m> {
                 register.when(begins, value);
             }
         }
-        m.comment("The values: d0 is added a line, and the increment as often as its double has a bit in the number of columns.");
-        for channel in plan.channels().iter().map(|channel| channel.name) {
+        m.comment("Values: d0 is added once a line. For each set bit i of the number of columns the increment, doubled i times, is added.");
+        if let Some(between) = &between {
+            between.connect(plan, takes, &line, &increments);
+        }
+        for channel in plan.planes().map(|(_, channel)| channel.name) {
             let of_prim = |result: &str| prim[format!("{channel}_{result}").as_str()];
             let increment = increments[channel].when(begins, of_prim("g")).q();
             let down = of_prim("d0");
@@ -111,7 +120,8 @@ impl<'m> Mover<'m> {
             value.when(way.adds, moved).when(!walking, of_prim("start"));
         }
         let (has_span, line_valid) = (has_span.q(), arrives.q());
-        Mover { pair_leaves, has_span, line_valid, increments, line: line.token() }
+        let fresh = if between.is_some() { m.lit(1, 1) } else { first };
+        Mover { pair_leaves, has_span, line_valid, increments, line: line.token(), first, fresh }
     }
 
     /// A field of the line.
@@ -120,51 +130,31 @@ impl<'m> Mover<'m> {
             // A span begins at its left end.
             "major_right" => self.has_span.module().lit(1, 0),
             // Of one polygon no two spans have a pixel in common.
-            "fence" => self.line["fresh"],
+            "fence" => self.first,
+            "fresh" => self.fresh,
             own => self.line[own],
-        }
-    }
-}
-
-impl<'m> Columns<'m> {
-    fn new(m: &'m Module, plan: &Plan, light_pass: LightPass<'m>, pair: Pair<'m>) -> Columns<'m> {
-        let Pair { left, right, thin, .. } = pair;
-        let width = light_pass.number(m, left.width(), plan.width.into(), plan.shadow.size.into());
-        let beyond = |column: Signal<'m>| !column.msb() & column.ge(width);
-        let beyond_right = beyond(right).named_doc("right_cut", "the pair ends beside the screen");
-        let before_left = left.msb().named_doc("left_cut", "the pair begins beside the screen");
-        let right_of_first = !right.msb() & right.any();
-        let some =
-            (left.slt(right) & !beyond(left) & right_of_first).named_doc("some_columns", "of the screen");
-        let whole = |cut: Signal<'m>| thin.map_or(cut, |thin| cut & !thin);
-        Columns {
-            first: whole(before_left).mux(0, left).named("first"),
-            behind: whole(beyond_right).mux(width, right).named("behind"),
-            some: thin.map_or(some, |thin| thin | some),
         }
     }
 }
 
 impl<'m> Way<'m> {
     /// From the span before, or from where the values start, to the pair that is taken.
-    fn new(
-        m: &'m Module,
-        plan: &Plan,
-        links: &Links<'_, 'm>,
-        first: Signal<'m>,
-        takes: Signal<'m>,
-    ) -> Way<'m> {
+    fn new(m: &'m Module, plan: &Plan, links: &Links<'_, 'm>, takes: Signal<'m>) -> Way<'m> {
         let Links { prim, walking, pair, .. } = *links;
         m.comment("The way to the span: lines down, then columns to the right or to the left.");
         let bits = column_bits(plan);
         let line = m.reg("at_line", pair.line.width()).doc("line of the span before");
         let column = m.reg("at_column", bits).doc("its first column");
-        let first = first.trunc(bits);
+        let first = pair.first.trunc(bits);
         let below = pair.line - line.q();
         let beside =
             (first.zext(bits + 1) - column.q().zext(bits + 1)).named_doc("beside", "signed, columns");
         let left = beside.msb();
-        let far = (beside.trunc(bits) ^ left.sext(bits)) + left.zext(bits);
+        // Both ways are subtracted side by side.
+        let back = (column.q() - first).named("back");
+        let far = left.mux(back, beside.trunc(bits));
+        let away = first.ne(column.q());
+        let away = pair.thin.map_or(away, |thin| !thin & away);
         let far = pair.thin.map_or(far, |thin| thin.mux(0, far)).named("columns_away");
         line.when(takes, pair.line).when(!walking, prim["start_y"]);
         column.when(takes, first).when(!walking, prim["start_x"].zext(bits));
@@ -177,9 +167,9 @@ impl<'m> Way<'m> {
         let doubles = (!down.q() & along.q()).named("doubles");
         let half = columns.q().shr(1);
         lines.when(down.q(), lines.q() - 1).when(takes, below);
-        down.when(down.q(), lines.q().ne(1)).when(takes, below.any());
+        down.when(down.q(), lines.q().ne(1)).when(takes, pair.line.ne(line.q()));
         columns.when(doubles, half).when(takes, far);
-        along.when(doubles, half.any()).when(takes, far.any());
+        along.when(doubles, half.any()).when(takes, away);
         let adds = (down.q() | (along.q() & columns.q().bit(0))).named("adds");
         Way { down: down.q(), along: along.q(), doubles, adds, left: to_left }
     }

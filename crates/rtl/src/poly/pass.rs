@@ -1,10 +1,13 @@
 //! PASS: goes through the active list of a line, and makes that of the next.
 
+use edgewalk_machine::Plan;
 use edgewalk_netlist::{Module, Reg, Signal};
 
+use super::columns::Columns;
 use super::insert::{Comes, Inserts};
 use super::load::Load;
-use super::table::{Tables, Word};
+use super::table::{EdgeColour, Tables, Word};
+use crate::light_pass::LightPass;
 use crate::stepping::Rest;
 use crate::wires::Token;
 
@@ -16,6 +19,7 @@ pub(super) struct Links<'a, 'm> {
     pub walking: Signal<'m>,
     /// MOVER takes the pair that waits, or drops it.
     pub pair_leaves: Signal<'m>,
+    pub light_pass: LightPass<'m>,
 }
 
 /// What PASS tells.
@@ -33,16 +37,29 @@ pub(super) struct Pair<'m> {
     /// There is one.
     pub waits: Signal<'m>,
     pub line: Signal<'m>,
-    pub left: Signal<'m>,
-    pub right: Signal<'m>,
+    /// The pair has columns on the screen: whether some, the first, and the one behind the last.
+    pub some: Signal<'m>,
+    pub first: Signal<'m>,
+    pub behind: Signal<'m>,
     /// The pair is the pixel of a line, twice.
     pub thin: Option<Signal<'m>>,
+    /// With bilinear colours: both edges.
+    pub ends: Option<[End<'m>; 2]>,
+}
+
+/// An edge of a pair: its key, and its colours in their order.
+#[derive(Clone, Copy)]
+pub(super) struct End<'m> {
+    pub key: Signal<'m>,
+    pub colours: [Signal<'m>; 3],
 }
 
 /// The registers of a line, without updates.
 struct Line<'m> {
     run: Reg<'m>,
     y: Reg<'m>,
+    /// The line below.
+    next: Reg<'m>,
     /// The active list that is read.
     list: Reg<'m>,
     half: Reg<'m>,
@@ -54,13 +71,13 @@ struct Line<'m> {
 
 impl<'m> Pass<'m> {
     /// The registers of PASS, and its ports of the memories.
-    pub fn new(m: &'m Module, tables: &Tables<'m>, links: &Links<'_, 'm>) -> Pass<'m> {
-        let Links { load, prim, walking, pair_leaves } = *links;
+    pub fn new(m: &'m Module, plan: &Plan, tables: &Tables<'m>, links: &Links<'_, 'm>) -> Pass<'m> {
+        let Links { load, prim, walking, pair_leaves, light_pass } = *links;
         m.comment(
             "PASS: the active list of line y through the stages B, a word, and C, the word with its record.",
         );
         let line = Line::new(m, tables);
-        let Line { run, y, half, b_valid, c_valid, entering, .. } = line;
+        let Line { run, y, next, half, b_valid, c_valid, entering, .. } = line;
         let held = |name: &str| prim.get(name).map(|value| m.reg(name, 1).when(!walking, value).q());
         let thin = held("thin");
         let pair_waits = m.reg("pair_waits", 1).doc("a pair of columns waits for MOVER").reset(0);
@@ -80,6 +97,11 @@ impl<'m> Pass<'m> {
         let b = line.read(m, tables, &inserts, advance, ends);
 
         m.comment("Stage C: the word with its record.");
+        let is_bilinear = !tables.colours.is_empty();
+        let column_of = |key: Signal<'m>| match is_bilinear {
+            false => key,
+            true => key.slice(tables.key - 1, tables.key - tables.column),
+        };
         let head = inserts.head.q();
         let index = b_valid.q().mux(b.index, entry.enters.mux(entry.index, head.index)).named("next_index");
         let column = b_valid.q().mux(b.key, head.key);
@@ -89,49 +111,132 @@ impl<'m> Pass<'m> {
         let lines_left = record.trunc(tables.line + 1).named("lines_left");
         let rest = record.slice(record.width() - 1, tables.line + 1).named_doc("rest", "R - f, signed");
         let c = Word {
-            key: m.reg("c_column", tables.column).when(advance, column).q(),
+            key: m.reg(if is_bilinear { "c_key" } else { "c_column" }, tables.key).when(advance, column).q(),
             index: m.reg("c_index", tables.index).when(advance, index).q(),
         };
         c_valid.when(advance, b_valid.q() | entry.enters | starts);
         entering.when(advance, !b_valid.q() & entry.enters);
 
-        m.comment("Each second column closes a pair.");
+        m.comment(
+            "Each second column closes a pair. While no pair waits its place takes what may become one.",
+        );
         let walked = (advance & leaving).named("walked");
-        let left = m.reg("left", tables.column).doc("first column of the pair").when(walked, c.key).q();
+        let left = m.reg("left", tables.key).doc(&format!("first {} of the pair", tables.sorted_by));
+        let left = left.when(!half.q(), c.key).q();
+        let colours = Colours::read(m, tables, advance, place);
+        let left_colours = colours.as_ref().map(|colours| colours.of_left(m, tables, !half.q()));
         half.when(walked, !half.q()).when(ends, 0);
         let closes = (advance & pairs).named("pair_closed");
         pair_waits.when(pair_leaves, 0).when(closes, 1);
-        let register = |name: &str, value: Signal<'m>| m.reg(name, value.width()).when(closes, value).q();
+        let left = thin.map_or(left, |thin| thin.mux(c.key, left));
+        let columns = Columns::new(m, plan, light_pass, [left, c.key].map(column_of), thin);
+        let free = !pair_waits.q();
+        let register = |name: &str, value: Signal<'m>| m.reg(name, value.width()).when(free, value).q();
         let pair = Pair {
             waits: pair_waits.q(),
             line: register("pair_line", y.q()),
-            left: register("pair_left", thin.map_or(left, |thin| thin.mux(c.key, left))),
-            right: register("pair_right", c.key),
+            some: register("pair_some", columns.some),
+            first: register("pair_first", columns.first),
+            behind: register("pair_behind", columns.behind),
             thin,
+            ends: colours.as_ref().zip(left_colours).map(|(right, of_left)| {
+                let of_left =
+                    [0, 1, 2].map(|k| thin.map_or(of_left[k], |thin| thin.mux(right.values[k], of_left[k])));
+                let end = |side: &str, key: Signal<'m>, values: [Signal<'m>; 3]| End {
+                    key: register(&format!("pair_{side}_key"), key),
+                    colours: [0, 1, 2]
+                        .map(|k| register(&format!("pair_{side}_{}", tables.colours[k].name), values[k])),
+                };
+                [end("left", left, of_left), end("right", c.key, right.values)]
+            }),
         };
 
         m.comment("Stage D: the edge on the next line, and its record written back.");
         let leaves = (!entering.q() & lines_left.eq(1)).named_doc("leaves", "line y is its last one");
-        let stepped = (c.key + steps["q"] + rest.msb().zext(tables.column)).named("stepped");
-        let edge = Word { key: entering.q().mux(steps["c"], stepped), index: c.index };
-        let next = Rest { name: "rest", rest, f: steps["f"], modulus: steps.get("m") }.next(m);
-        let next = m.reg("d_rest", next.width()).doc("R - f, signed").when(advance, next).q();
+        let stepped = (column_of(c.key) + steps["q"] + rest.msb().zext(tables.column)).named("stepped");
+        let (first, stepped) = match is_bilinear {
+            false => (steps["c"], stepped),
+            // R on the next line is R - f, with M = 2^F added where that is below 0.
+            true => (m.cat(&[steps["c"], !steps["dist"]]), m.cat(&[stepped, !rest.trunc(rest.width() - 1)])),
+        };
+        let edge = Word { key: entering.q().mux(first, stepped), index: c.index };
+        let stepped = Rest { name: "rest", rest, f: steps["f"], modulus: steps.get("m") }.next(m);
+        let stepped = m.reg("d_rest", stepped.width()).doc("R - f, signed").when(advance, stepped).q();
         let lines = m.reg("d_lines_left", lines_left.width()).when(advance, lines_left - 1).q();
         let writes = m.reg("writes", 1).doc("the record of D is written").reset(0);
         let writes = writes.set(advance & leaving & !leaves).q();
         let stores = (load.stores | writes).named("rests_written");
         let place = writes.mux(tables.at(!load.bank, inserts.edge.q().index), load.place);
-        tables.rests.write(stores, place, writes.mux(m.cat(&[next, lines]), load.rest));
+        tables.rests.write(stores, place, writes.mux(m.cat(&[stepped, lines]), load.rest));
+        if let Some(colours) = &colours {
+            colours.write(m, tables, &Writes { advance, stores, place, writes, of_load: &load.values });
+        }
         let valid = c_valid.q() & !leaves;
         inserts.update(&Comes { list: !line.list.q(), advance, valid, edge, line_ends: ends });
 
         m.comment("The next line.");
         let last = (ends & !words.any() & !entry.some).named("polygon_ends");
         run.when(last, 0).when(load.begins, 1);
-        let before = (prim["start_y"].zext(tables.line) - 1).named("line_before");
-        y.when(ends, y.q() + 1).when(!run.q(), before);
+        let first = prim["start_y"].zext(tables.line);
+        y.when(ends, next.q()).when(!run.q(), (first - 1).named("line_before"));
+        next.when(ends, next.q() + 1).when(!run.q(), first);
         line.list.when(ends, !line.list.q());
         Pass { run: run.q(), writes, pair }
+    }
+}
+
+/// The colours of the edge in C, on line y, and their steps to the next line.
+struct Colours<'m> {
+    values: [Signal<'m>; 3],
+    steps: [Signal<'m>; 3],
+}
+
+/// When and where colours are written.
+struct Writes<'a, 'm> {
+    advance: Signal<'m>,
+    stores: Signal<'m>,
+    place: Signal<'m>,
+    /// By PASS, not by LOAD.
+    writes: Signal<'m>,
+    of_load: &'a [Signal<'m>],
+}
+
+impl<'m> Colours<'m> {
+    /// With the record of C; none without bilinear colours.
+    fn read(
+        m: &'m Module,
+        tables: &Tables<'m>,
+        advance: Signal<'m>,
+        place: Signal<'m>,
+    ) -> Option<Colours<'m>> {
+        if tables.colours.is_empty() {
+            return None;
+        }
+        m.comment("Colours of the edge in C.");
+        let read = |k: usize| {
+            let EdgeColour { name, values, steps } = &tables.colours[k];
+            let value = values.read(advance, place).named(&format!("c_{name}"));
+            (value, steps.read(advance, place).named(&format!("c_{name}_step")))
+        };
+        let read = [0, 1, 2].map(read);
+        Some(Colours { values: read.map(|(value, _)| value), steps: read.map(|(_, step)| step) })
+    }
+
+    /// Colours of the left edge of a pair.
+    fn of_left(&self, m: &'m Module, tables: &Tables<'m>, is_left: Signal<'m>) -> [Signal<'m>; 3] {
+        [0, 1, 2].map(|k| {
+            let name = format!("left_{}", tables.colours[k].name);
+            m.reg(&name, self.values[k].width()).when(is_left, self.values[k]).q()
+        })
+    }
+
+    /// A line further, and back to the table.
+    fn write(&self, m: &'m Module, tables: &Tables<'m>, of: &Writes<'_, 'm>) {
+        for (k, table) in tables.colours.iter().enumerate() {
+            let stepped = self.values[k] + self.steps[k];
+            let stepped = m.reg(&format!("d_{}", table.name), stepped.width()).when(of.advance, stepped).q();
+            table.values.write(of.stores, of.place, of.writes.mux(stepped, of.of_load[k]));
+        }
     }
 }
 
@@ -140,6 +245,7 @@ impl<'m> Line<'m> {
         Line {
             run: m.reg("run", 1).doc("lines are passed").reset(0),
             y: m.reg("y", tables.line).doc("the line"),
+            next: m.reg("y_below", tables.line).doc("the line below"),
             list: m.reg("list", 1).doc("the active list that is read: that of the line").reset(0),
             half: m.reg("half", 1).doc("the first column of a pair is there").reset(0),
             b_valid: m.reg("b_valid", 1).reset(0),
@@ -194,13 +300,13 @@ impl<'m> Entry<'m> {
         advance: Signal<'m>,
     ) -> Entry<'m> {
         m.comment("The next edge of the order list; while no polygon is walked, the first of the one that is loaded.");
-        let Line { run, y, b_valid, .. } = *line;
+        let Line { run, next, b_valid, .. } = *line;
         let waiting = m.reg("waiting", tables.index + 1).doc("edges that have not entered");
         let behind = m.reg("order_next", tables.index).doc("place behind that of the next edge");
         let word = m.wire("order_word", tables.line + tables.index);
         let first = tables.word(word.q());
         let some = waiting.q().any().named("some_waits");
-        let on_next = first.key.eq(y.q() + 1).named("begins_on_next");
+        let on_next = first.key.eq(next.q()).named("begins_on_next");
         let enters = (run.q() & !b_valid.q() & some & on_next).named("enters");
         let taken = (advance & enters).named("entered");
         waiting.when(taken, waiting.q() - 1).when(!run.q(), load.edges);

@@ -1,6 +1,6 @@
 //! The memories of POLY: the table of edges, the order list, the active lists.
 
-use edgewalk_machine::Plan;
+use edgewalk_machine::{COLOURS, Channel, Plan};
 use edgewalk_netlist::{Memory, Module, Signal};
 
 use crate::stepping::parts_of_edge;
@@ -17,14 +17,27 @@ pub(super) struct Tables<'m> {
     pub order: Memory<'m>,
     /// Column and number of each edge of a line, by the column: that of the line and that of the next.
     pub lists: Memory<'m>,
+    /// With bilinear colours a word of each, as it stands on the edge's line, and its step to the next.
+    pub colours: Vec<EdgeColour<'m>>,
     /// The parts of a word of `steps`.
     parts: Vec<Part>,
     /// Bits of an edge's number.
     pub index: u32,
     /// Bits of a column.
     pub column: u32,
+    /// Bits by which the active lists are sorted: the column, and with bilinear colours the remainder below it.
+    pub key: u32,
+    /// What these are.
+    pub sorted_by: &'static str,
     /// Bits of a line.
     pub line: u32,
+}
+
+/// The words of a colour along edges.
+pub(super) struct EdgeColour<'m> {
+    pub name: &'static str,
+    pub values: Memory<'m>,
+    pub steps: Memory<'m>,
 }
 
 /// An edge's number beside what it is sorted by: its first line, or its column.
@@ -51,11 +64,23 @@ impl<'m> Tables<'m> {
     pub fn new(m: &'m Module, plan: &Plan, prim: &Token<'m>) -> Tables<'m> {
         m.comment("The table of edges and the lists. A half of each is read while the other is written.");
         let mut parts = parts_of_edge(&prim.parts());
-        parts.retain(|part| part.name != "r");
+        let bilinear = plan.polygon.is_bilinear();
+        // With bilinear colours the first remainder is a part of the key.
+        parts.retain(|part| bilinear || part.name != "dist");
         let (places, index) = (plan.polygon.edges, plan.polygon.edges.ilog2());
         let (column, line) = (plan.widths().column, plan.widths().line);
         let rest = prim["minor1_f"].width() + 1;
         let memory = |name: &str, bits: u32| m.memory(name, index + 1, 2 * places as usize, bits);
+        let (key, sorted_by) =
+            if bilinear { (column + plan.edge_fraction, "column, 2^F - 1 - R") } else { (column, "column") };
+        let colour = |channel: &Channel| EdgeColour {
+            name: channel.name,
+            values: memory(&format!("{}_values", channel.name), channel.word())
+                .doc("of each edge the colour on its line"),
+            steps: memory(&format!("{}_slopes", channel.name), channel.word())
+                .doc("of each edge the colour's step to the next line"),
+        };
+        let colours = if bilinear { &plan.channels()[COLOURS] } else { &[] };
         let names: Vec<&str> = parts.iter().map(|part| part.name.as_str()).collect();
         Tables {
             m,
@@ -63,11 +88,14 @@ impl<'m> Tables<'m> {
                 .doc(&format!("of each edge {}, as in the prim", names.join(", "))),
             rests: memory("rests", rest + line + 1).doc("of each edge R - f, signed, and the lines left"),
             order: memory("order", line + index).doc("first line and number of each edge, by the line"),
-            lists: memory("lists", column + index)
-                .doc("column and number of each active edge, by the column"),
+            lists: memory("lists", key + index)
+                .doc(&format!("{sorted_by} and number of each active edge, by the {sorted_by}")),
+            colours: colours.iter().map(colour).collect(),
             parts,
             index,
             column,
+            key,
+            sorted_by,
             line,
         }
     }

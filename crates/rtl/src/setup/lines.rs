@@ -121,7 +121,7 @@ impl<'m> Lines<'m> {
 /// equal, none is above 0, or none below W; so neither vertex needs to be found.
 fn no_column<'m>(screen: &Screen<'_, 'm>, vertices: &Vertices<'m>) -> Signal<'m> {
     let Screen { m, plan, .. } = *screen;
-    m.comment("Columns: no centre of the screen lies from the leftmost to before the rightmost vertex.");
+    m.comment("Columns: is there a column centre of the screen from the leftmost up to before the rightmost vertex?");
     let t = plan.widths().center_fraction;
     let u = [0, 1, 2].map(|place| vertices.u(place));
     let (bits, last) = (u[0].width() - t, screen.last_column(u[0].width()));

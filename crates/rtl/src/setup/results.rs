@@ -32,7 +32,7 @@ impl<'m> Results<'_, 'm> {
                 EdgeKind::Slope => self.edge_slope(edge, round, lane),
             }
         }
-        for (job, channel) in self.plan.channels().iter().enumerate() {
+        for (job, channel) in self.plan.planes().map(|(_, channel)| channel).enumerate() {
             let (round, lane) = (job / lanes.len(), &lanes[job % lanes.len()]);
             match self.plan.fill {
                 Fill::Exact => self.channel_exact(channel, round, lane),
@@ -56,7 +56,7 @@ impl<'m> Results<'_, 'm> {
     fn left_out(&self, edge: usize) {
         let leaves_out = rounds(self.plan)[0] > 1 || self.plan.edge_kind == EdgeKind::Slope;
         if self.plan.polygon.is_there() && leaves_out {
-            for result in ["c", "r", "q", "f"] {
+            for result in ["c", "dist", "q", "f"] {
                 self.register(EDGES[edge], result).when(self.begins(), 0);
             }
         }
@@ -79,7 +79,7 @@ impl<'m> Results<'_, 'm> {
         let (rest_now, whole_now) = after(Op::DoubleDx);
         f.when(rest_now, steps.mux(rest.slice(rest.width() - 1, t).trunc(f.q().width()), 0));
         q.when(whole_now, steps.mux(value.trunc(q.q().width()), 0));
-        let (r, c) = (self.register(name, "r"), self.register(name, "c"));
+        let (r, c) = (self.register(name, "dist"), self.register(name, "c"));
         let (rest_now, whole_now) = after(Op::Sum);
         let walked = |value: Signal<'m>| self.walked.edge(edge).map_or(value, |walked| walked.mux(value, 0));
         let (onward, column) = match self.plan.fill {
@@ -113,7 +113,7 @@ impl<'m> Results<'_, 'm> {
         let start = self.control.way.whole.ends_in(Op::DoubleColumns, round);
         let walked = |value: Signal<'m>| self.walked.edge(edge).map_or(value, |walked| walked.mux(value, 0));
         self.register(name, "c").when(start, walked(-whole(distance)));
-        self.register(name, "r").when(start, walked(distance.trunc(bits)));
+        self.register(name, "dist").when(start, walked(distance.trunc(bits)));
     }
 
     fn channel_exact(&self, channel: &Channel, round: usize, lane: &Lane<'m>) {

@@ -244,12 +244,12 @@ pub(super) fn edge_of(plan: &Plan, lane: usize, round: usize) -> Option<usize> {
 
 /// The channel of a lane in a round.
 pub(super) fn channel_of(plan: &Plan, lane: usize, round: usize) -> Option<Channel> {
-    plan.channels().get(lane + round * plan.lanes as usize).copied()
+    plan.planes().map(|(_, channel)| *channel).nth(lane + round * plan.lanes as usize)
 }
 
 /// Bits of the longest vertex value of all.
 pub(super) fn longest_value(plan: &Plan) -> u32 {
-    plan.channels().iter().map(|channel| channel.vertex_bits()).max().unwrap_or(1)
+    plan.planes().map(|(_, channel)| channel.vertex_bits()).max().unwrap_or(1)
 }
 
 /// The largest scale: differences and the area's sign are at most 2 to the bits of a value.
@@ -273,5 +273,5 @@ pub(super) fn round_clocks(
 
 /// Rounds in which the lanes do all edges, and all channels.
 pub(super) fn rounds(plan: &Plan) -> [usize; 2] {
-    [EDGES, plan.channels().len()].map(|jobs| jobs.div_ceil(plan.lanes as usize))
+    [EDGES, plan.planes().count()].map(|jobs| jobs.div_ceil(plan.lanes as usize))
 }

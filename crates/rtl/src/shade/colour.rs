@@ -1,11 +1,11 @@
-//! The sums of the lights: stages M and C.
+//! The sums of the lights: stages L, M and C.
 
 use edgewalk_machine::Plan;
 use edgewalk_netlist::{Module, Reg, Signal};
 
 use super::largest;
 use super::tables::Light;
-use crate::wires::Registers;
+use crate::wires::{Registers, moved};
 
 /// The colours, in the order of a word: red, the most significant, first.
 pub(super) const COLOURS: [&str; 3] = ["r", "g", "b"];
@@ -32,29 +32,28 @@ impl<'m> Shone<'_, 'm> {
         })
     }
 
-    /// Stages M and C where they hold the light; the colours of the triangle stand in stage B.
+    /// Stages L, M and C where they hold the light; the colours of the triangle stand in stage L.
     pub fn multiplied(&self, triangle: &Registers<'m>) -> [Reg<'m>; 3] {
         let (m, b) = (self.m, self.plan.color.bits);
-        m.comment(
-            "Stage M: sum of diffuse light, at most 1.0, times the triangle's colour; sum of the highlights.",
-        );
+        m.comment("Stage L: sum of diffuse light, at most 1.0; sum of the highlights.");
         let sum = total(self.lights.iter().map(|light| light.diffuse).collect());
         // 1.0 is one bit, so whatever is more has that bit or one above.
         let whole =
             sum.slice(sum.width() - 1, b + 2).any().named_doc("whole", "diffuse light saturates at 1.0");
-        let light = m.cat(&[whole, whole.mux(0, sum.trunc(b + 2))]).named_doc("light", "2^-(b+2)");
-        let highlight = m.reg("m_highlight", b).doc("sum of the highlights");
-        highlight.when(self.advance, self.cut(total(self.highlights()), "highlights"));
+        let light = m.cat(&[whole, whole.mux(0, sum.trunc(b + 2))]);
+        let light = moved(m, self.advance, "l_light", "sum of diffuse light, 2^-(b+2)", light);
+        let highlights = self.cut(total(self.highlights()), "highlights");
+        let highlight = moved(m, self.advance, "l_highlight", "sum of the highlights", highlights);
+        m.comment("Stage M: light times the triangle's colour.");
+        let highlight = moved(m, self.advance, "m_highlight", "sum of the highlights", highlight);
         let colours = COLOURS.map(|name| {
             let product = (triangle[name].q() * light).named(&format!("product_{name}"));
             let half = m.lit(product.width(), 1 << (b + 1));
             let nearest = (product + half).slice(2 * b + 1, b + 2);
-            m.reg(&format!("m_{name}"), b)
-                .doc("triangle's colour times diffuse light")
-                .when(self.advance, nearest)
+            moved(m, self.advance, &format!("m_{name}"), "triangle's colour times diffuse light", nearest)
         });
         m.comment("Stage C: product plus highlight, saturated at the largest colour.");
-        [0, 1, 2].map(|i| self.colour(i, total(vec![colours[i].q(), highlight.q()])))
+        [0, 1, 2].map(|i| self.colour(i, total(vec![colours[i], highlight])))
     }
 
     /// Of each light; none below the horizon.

@@ -11,6 +11,7 @@ pub(super) const WAITS: u32 = 1;
 
 impl Timing {
     /// TE: edges, area and cull.
+    #[inline(always)]
     pub(crate) fn phase1_of_sides<const C: usize>(
         &self,
         sorted: &Sorted<C>,
@@ -42,6 +43,7 @@ impl Timing {
     }
 
     /// S2 of a plane.
+    #[inline(always)]
     pub(crate) fn phase2_of_plane<const C: usize>(
         &self,
         sorted: &Sorted<C>,

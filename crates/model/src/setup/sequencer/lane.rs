@@ -33,6 +33,8 @@ pub(super) struct Formats {
     pub rest_bits: u32,
     /// Bits of a factor: as many of W can be taken into A.
     pub factor_bits: u32,
+    /// Bits of W below a whole column: F + 1 of a slope edge, else 0.
+    pub below_column: u32,
     /// t.
     pub center_fraction: u32,
     /// t + r - e of the lane's channel.
@@ -70,7 +72,9 @@ impl Lane {
         };
         let row = match addend.operand {
             Operand::Row => addend.row,
-            Operand::Whole => Number { a: signed(w, formats.factor_bits), w: addend.row.w },
+            Operand::Whole => {
+                Number { a: signed(w >> formats.below_column, formats.factor_bits), w: addend.row.w }
+            }
             Operand::Raised => {
                 Number { a: addend.row.a, w: addend.row.w.wrapping_add(addend.row.a << formats.doublings) }
             }

@@ -9,7 +9,7 @@ use edgewalk_machine::sequencer::word::{
     Act, Control, Corner, Drop, Factor, Give, Only, Part, Row, Step, Word, Write,
 };
 use edgewalk_machine::sequencer::{NAMED_ROWS, edges_are_beside};
-use edgewalk_machine::{PortVertex, Role};
+use edgewalk_machine::{Fill, PortVertex, Role};
 
 /// A word that waits this long sees what a row or a check has become.
 const BEHIND: u32 = 3;
@@ -176,6 +176,7 @@ impl<'a, const C: usize> Run<'a, C> {
         Formats {
             rest_bits: self.setup.rest_bits(),
             factor_bits: self.digits.bits(),
+            below_column: self.setup.slope_fraction().map_or(0, |fraction| fraction + 1),
             center_fraction: plan.widths().center_fraction,
             doublings: channel.map_or(most, |channel| self.setup.doublings(channel)),
             right: self.right,
@@ -361,6 +362,11 @@ impl<'a, const C: usize> Run<'a, C> {
             Act::Shift => self.shift(),
             Act::Judge => self.unfit = false,
             Act::TimesT => self.times(self.setup.plan.widths().center_fraction, false),
+            Act::TimesF => self.times(self.setup.plan.edge_fraction, false),
+            Act::TimesTf => {
+                let fraction = self.setup.plan.edge_fraction;
+                self.times(self.setup.plan.widths().center_fraction + fraction, false);
+            }
             Act::TimesK => self.times(self.setup.doublings_of_round(self.number) + self.scale, true),
             Act::Scale => self.scale += 3,
             Act::LastRound => {
@@ -401,7 +407,7 @@ impl<'a, const C: usize> Run<'a, C> {
                 (0..3).for_each(|lane| self.give_edge(give, lane, lane));
             }
             Give::M | Give::Qf | Give::R | Give::C => self.give_edge(give, self.number, 0),
-            Give::Start | Give::D0 | Give::D1 | Give::G => self.give_channels(give),
+            Give::Start | Give::StartB | Give::D0 | Give::D1 | Give::G => self.give_channels(give),
         }
     }
 
@@ -413,6 +419,18 @@ impl<'a, const C: usize> Run<'a, C> {
         }
         let Number { a, w } = self.lanes[lane].now;
         let edge = if edge == 0 { &mut self.prim.major } else { &mut self.prim.minor[edge - 1] };
+        if let Some(fraction) = self.setup.slope_fraction() {
+            let fractions = ((w >> 1) & ((1 << fraction) - 1)) as i32;
+            match give {
+                Give::M => edge.m = 1 << fraction,
+                Give::Qf => {
+                    (edge.q, edge.f) = (sign_extend((w >> (fraction + 1)) as i32, column_bits), fractions);
+                }
+                Give::R => edge.r = fractions,
+                _ => edge.c = sign_extend((a >> t) as i32, column_bits),
+            }
+            return;
+        }
         match give {
             Give::M => edge.m = a as i32,
             Give::Qf => (edge.q, edge.f) = (sign_extend(w as i32, column_bits), (a >> t) as i32),
@@ -423,15 +441,20 @@ impl<'a, const C: usize> Run<'a, C> {
 
     fn give_channels(&mut self, give: Give) {
         let t = self.setup.plan.widths().center_fraction;
+        let textbook = self.setup.plan.fill == Fill::Textbook;
         for lane in 0..self.lanes.len() {
             let place = self.channel(lane);
             let Some(channel) = self.setup.plan.channels().get(place) else { continue };
             let w = self.lanes[lane].now.w;
             let word = |shift: u32| (w >> shift) as u64 & ((1 << channel.word()) - 1);
+            // In textbook fill a part without lines has no values.
+            let of_part =
+                |part: usize, shift: u32| if textbook && !self.lines[part] { 0 } else { word(shift) };
             match give {
-                Give::Start => self.prim.start[0][place] = word(t),
-                Give::D0 => self.prim.delta[0][place] = word(1),
-                Give::D1 => self.prim.delta[1][place] = word(1),
+                Give::Start => self.prim.start[0][place] = of_part(0, t),
+                Give::StartB => self.prim.start[1][place] = of_part(1, t),
+                Give::D0 => self.prim.delta[0][place] = of_part(0, 1),
+                Give::D1 => self.prim.delta[1][place] = of_part(1, 1),
                 _ => self.prim.gradient[place] = word(1),
             }
         }

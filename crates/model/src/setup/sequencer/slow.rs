@@ -3,7 +3,7 @@
 use crate::setup::Culled;
 use crate::tokens::Prim;
 use edgewalk_machine::sequencer::{Program, rounds};
-use edgewalk_machine::{Channel, Plan};
+use edgewalk_machine::{Channel, EdgeKind, Plan};
 
 /// The program of a machine, ready to be run.
 #[derive(Clone, Debug)]
@@ -45,6 +45,11 @@ impl SlowSetup {
     /// Doublings of a channel: t + r - e.
     pub(super) fn doublings(&self, channel: &Channel) -> u32 {
         self.plan.widths().center_fraction + channel.fraction - channel.vertex_fraction
+    }
+
+    /// F of slope edges; none of exact ones.
+    pub(super) fn slope_fraction(&self) -> Option<u32> {
+        (self.plan.edge_kind == EdgeKind::Slope).then_some(self.plan.edge_fraction)
     }
 
     /// The most doublings of a channel of the round.

@@ -31,7 +31,7 @@ pub(super) fn doubling_clocks(plan: &Plan, op: Op, round: usize) -> u32 {
 
 /// Clocks of the channel that is doubled the most.
 fn most_clocks(plan: &Plan, doublings: fn(&Plan, &Channel) -> u32) -> u32 {
-    plan.channels().iter().map(|channel| doublings(plan, channel).div_ceil(2)).max().unwrap_or(1)
+    plan.planes().map(|(_, channel)| doublings(plan, channel).div_ceil(2)).max().unwrap_or(1)
 }
 
 /// Pairs of digits of the longest vertex value in a round.

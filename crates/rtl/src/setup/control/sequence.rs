@@ -83,7 +83,8 @@ impl<'m> Sequence<'m> {
         }
         let waits =
             (begins_channels & !feedback.area_known.q()).named_doc("waits", "for the area or its scale");
-        let goes = (works & !waits & !gives_up).named_doc("goes", "the operation is done");
+        let goes =
+            (works & !waits & !gives_up).named_doc("goes", "a step of the operation is done in this clock");
         let ends = (goes & last).named_doc("ends", "it ends");
         let leaves = (ends & base.pause.advance).named("leaves");
         let channels_end = rounds.during(is_at(codes.last_channel()), last_round).named("channels_end");

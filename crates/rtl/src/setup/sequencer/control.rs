@@ -1,7 +1,8 @@
 //! Which word comes next, and the counters and flags that say so.
 
-use edgewalk_machine::sequencer::edges_are_beside;
+use edgewalk_machine::EdgeKind;
 use edgewalk_machine::sequencer::word::{Act, Drop};
+use edgewalk_machine::sequencer::{edges_are_beside, rounds};
 use edgewalk_netlist::{Reg, Signal};
 
 use super::Parts;
@@ -24,8 +25,8 @@ pub(super) struct Control<'m> {
     pub right: Signal<'m>,
     /// Numbers of the vertices at the places 0, 1, 2.
     pub order: [Signal<'m>; 3],
-    /// Round of channels, or the edge.
-    pub number: Signal<'m>,
+    /// Round of channels, or the edge; none where a lane has one of each.
+    pub number: Option<Signal<'m>>,
     /// Lanes have edges of their own.
     pub beside: Option<Signal<'m>>,
     /// The upper and the lower part have lines.
@@ -89,8 +90,8 @@ impl<'m> Control<'m> {
             | (is(Jump::Negative) & negative)
             | (is(Jump::Unfit) & unfit)
             | (is(Jump::NoUpper) & !upper)
-            | (is(Jump::NoLower) & !lower)
-            | (is(Jump::Rounds) & number.any());
+            | (is(Jump::NoLower) & !lower);
+        let jumps = number.map_or(jumps, |number| jumps | (is(Jump::Rounds) & number.any()));
         let (repeats, jumps) = (repeats.named("repeats"), jumps.named("jumps"));
         let other = is(Jump::Return).mux(link.q(), jumps.mux(word.get("target"), behind));
         let next = repeats.mux(place.q(), other) & runs.sext(place_bits(program));
@@ -113,7 +114,7 @@ impl<'m> Control<'m> {
 
     /// The edge of a lane.
     pub fn edge(&self, parts: &Parts<'_, 'm>, lane: usize) -> Signal<'m> {
-        let number = self.number.trunc(2);
+        let number = self.number.map_or(parts.m.lit(2, 0), |number| number.trunc(2));
         match self.beside {
             Some(beside) => beside.mux(parts.m.lit(2, lane as u128 & 3), number),
             None => number,
@@ -146,15 +147,19 @@ fn order<'m>(parts: &Parts<'_, 'm>, negative: Signal<'m>) -> [Signal<'m>; 3] {
 }
 
 /// Round of channels, or the edge.
-fn number<'m>(parts: &Parts<'_, 'm>, does: &impl Fn(Act) -> Signal<'m>) -> Signal<'m> {
-    let rounds = most_doublings(parts.plan).len() as u128;
+fn number<'m>(parts: &Parts<'_, 'm>, does: &impl Fn(Act) -> Signal<'m>) -> Option<Signal<'m>> {
+    let rounds = rounds(parts.plan) as u128;
+    if edges_are_beside(parts.plan) && rounds == 1 {
+        return None;
+    }
     let number = parts.m.reg("number", 3).doc("of the round of channels, or of the edge");
     number.when(does(Act::LastRound), rounds - 1);
     for (edge, act) in [0u8, 1, 2].map(|edge| (edge, Act::Edge(edge))) {
         number.when(does(act), u128::from(edge));
     }
     number.when(does(Act::Beside), 0);
-    number.when(parts.word.jumps(Jump::Rounds) & number.q().any(), number.q() - 1).q()
+    number.when(parts.word.jumps(Jump::Rounds) & number.q().any(), number.q() - 1);
+    Some(number.q())
 }
 
 /// A checked number does not fit.
@@ -178,7 +183,7 @@ fn unfit<'m>(parts: &Parts<'_, 'm>, beside: Option<Signal<'m>>, walked: [Signal<
 fn count<'m>(
     parts: &Parts<'_, 'm>,
     does: &impl Fn(Act) -> Signal<'m>,
-    number: Signal<'m>,
+    number: Option<Signal<'m>>,
 ) -> (Signal<'m>, Signal<'m>) {
     const BITS: u32 = 7;
     let Parts { m, plan, word, .. } = parts;
@@ -188,13 +193,25 @@ fn count<'m>(
     let of = |doublings: u32| m.lit(BITS, doublings.into());
     let mut most = of(rounds[0]);
     for (round, doublings) in rounds.iter().enumerate().skip(1).filter(|(_, other)| **other != rounds[0]) {
-        most = number.eq(round as u128).mux(of(*doublings), most);
+        most = number.map_or(most, |number| number.eq(round as u128).mux(of(*doublings), most));
     }
     let count = m.reg("count", BITS).doc("doublings that are left");
     count.when(word.jumps(Jump::Again), count.q() - 1);
-    count.when(word.does(Act::TimesT), u128::from(plan.widths().center_fraction));
+    let t = plan.widths().center_fraction;
+    let of_edges = match plan.edge_kind {
+        EdgeKind::Exact => vec![(Act::TimesT, t)],
+        EdgeKind::Slope => {
+            vec![(Act::TimesT, t), (Act::TimesF, plan.edge_fraction), (Act::TimesTf, t + plan.edge_fraction)]
+        }
+    };
+    for (act, doublings) in &of_edges {
+        count.when(word.does(*act), u128::from(*doublings));
+    }
     count.when(word.does(Act::TimesK), most + scale.q());
     let of_channels = m.reg("of_channels", 1).doc("they are a channel's");
-    of_channels.when(word.does(Act::TimesT), 0).when(word.does(Act::TimesK), 1);
+    for (act, _) in of_edges {
+        of_channels.when(word.does(act), 0);
+    }
+    of_channels.when(word.does(Act::TimesK), 1);
     (count.q(), of_channels.q())
 }

@@ -17,6 +17,8 @@ pub(super) struct Shape {
     pub factor: u32,
     /// t.
     pub center_fraction: u32,
+    /// Bits of W below a whole column: F + 1 of a slope edge, else 0.
+    pub below_column: u32,
     /// How far up a raised value goes: each t + r - e of the lane's channels once.
     pub raises: Vec<u32>,
     /// Rows of A and of W that are there from the start: place, number, what it is.
@@ -31,8 +33,8 @@ impl Shape {
             let all = shape.constants_a.iter().chain(&shape.constants_w);
             all.map(|(place, number, _)| (*place, *number)).collect()
         };
-        (self.rest, self.whole, &self.raises) == (other.rest, other.whole, &other.raises)
-            && rows(self) == rows(other)
+        let sizes = |shape: &Shape| (shape.rest, shape.whole, shape.below_column);
+        (sizes(self), &self.raises) == (sizes(other), &other.raises) && rows(self) == rows(other)
     }
 }
 
@@ -48,7 +50,7 @@ Rules: a modulus is added or subtracted by the sign that A has before the step, 
 pub(super) fn lane(name: &str, shape: &Shape) -> Result<Arc<Netlist>, BuildErrors> {
     let module = Module::new(name, DOC);
     let m = &module;
-    let Shape { rest, whole, factor, center_fraction: t, .. } = *shape;
+    let Shape { rest, whole, factor, center_fraction: t, below_column, .. } = *shape;
     let read_row = m.input_doc("read_row", ROW_BITS, "row that is added in the next clock");
     let write_row = m.input_doc("write_row", ROW_BITS, "row that A, W or a word of a triangle is written to");
     let write_a = m.input_doc("write_a", 1, "A is written");
@@ -61,7 +63,11 @@ pub(super) fn lane(name: &str, shape: &Shape) -> Result<Arc<Netlist>, BuildError
     let base = m.input_doc("base", 2, "0: nothing; 1: A, W; 2: twice these; 3: A without its low t bits, W");
     let minus = m.input_doc("minus", 1, "the row is subtracted");
     let by_a = m.input_doc("by_a", 1, "the row is a modulus, subtracted if A >= 0");
-    let of_whole = m.input_doc("of_whole", 1, "the low bits of W stand for the row of A");
+    let columns = match below_column {
+        0 => "the low bits of W stand for the row of A",
+        _ => "the columns of W stand for the row of A",
+    };
+    let of_whole = m.input_doc("of_whole", 1, columns);
     let raises: Vec<_> = (shape.raises.iter())
         .map(|bits| {
             (*bits, m.input_doc(&format!("raise_{bits}"), 1, "the row of A is added to W too, so far up"))
@@ -88,8 +94,9 @@ pub(super) fn lane(name: &str, shape: &Shape) -> Result<Arc<Netlist>, BuildError
 
     m.comment("The step.");
     let negative = a.q().msb().named("negative");
-    let low = factor.min(whole);
-    let operand = of_whole.mux(w.q().trunc(low).sext(rest.max(low)).trunc(rest), row_a);
+    let low = factor.min(whole - below_column);
+    let columns = w.q().slice(below_column + low - 1, below_column);
+    let operand = of_whole.mux(columns.sext(rest.max(low)).trunc(rest), row_a);
     let subtracts = by_a.mux(!negative, minus).named("subtracts");
     let lowers = by_a.mux(negative, minus).named_doc("lowers", "W gets less");
     let nothing = base.eq(0).named("nothing");

@@ -1,15 +1,35 @@
 //! The prim: its registers take A and W of the lanes two clocks behind the word that gives them.
 
-use edgewalk_machine::Field;
 use edgewalk_machine::sequencer::edges_are_beside;
 use edgewalk_machine::sequencer::word::Give;
 use edgewalk_machine::units::tokens::EDGES;
+use edgewalk_machine::{Field, Fill};
 use edgewalk_netlist::Signal;
 
 use super::Parts;
 use super::code::number_of;
 use super::control::Control;
+use super::shape::below_column;
 use crate::wires::{Registers, parts as parts_of};
+
+/// What a channel gives: the field, the result, whether it is W / P or W / 2, and the part whose lines it is for.
+fn channel_results(fill: Fill) -> &'static [(&'static str, Give, bool, Option<usize>)] {
+    match fill {
+        Fill::Exact => &[
+            ("start", Give::Start, true, None),
+            ("d0", Give::D0, false, None),
+            ("d1", Give::D1, false, None),
+            ("g", Give::G, false, None),
+        ],
+        Fill::Textbook => &[
+            ("start_a", Give::Start, true, Some(0)),
+            ("d_a", Give::D0, false, Some(0)),
+            ("start_b", Give::StartB, true, Some(1)),
+            ("d_b", Give::D1, false, Some(1)),
+            ("g", Give::G, false, None),
+        ],
+    }
+}
 
 /// The registers.
 pub(super) fn results<'m>(parts: &Parts<'_, 'm>, control: &Control<'m>, fields: &[Field]) -> Registers<'m> {
@@ -21,9 +41,13 @@ pub(super) fn results<'m>(parts: &Parts<'_, 'm>, control: &Control<'m>, fields: 
         parts.later(&format!("{name}_given"), parts.later(&format!("{name}_giving"), signal))
     };
     let give = behind("result", parts.word.get("give"));
-    let number = behind("number", control.number);
+    let number = control.number.map(|number| behind("number", number));
     let gives = |what: Give| give.eq(number_of(what));
+    let numbered = |what: Give, place: usize| {
+        number.map_or(gives(what), |number| gives(what) & number.eq(place as u128))
+    };
     let t = parts.plan.widths().center_fraction;
+    let below_column = below_column(parts.plan);
     let rest = |lane: usize| parts.of_lane(lane, "rest");
     // A / P, as many bits as the register has.
     let lines = |name: &str, what: Give| {
@@ -37,16 +61,19 @@ pub(super) fn results<'m>(parts: &Parts<'_, 'm>, control: &Control<'m>, fields: 
         let beside = edges_are_beside(parts.plan);
         let lane = if beside { edge } else { 0 };
         let gives = |what: Give| {
-            if beside { gives(what) } else { gives(what) & number.eq(edge as u128) }
+            if beside { gives(what) } else { numbered(what, edge) }
         };
         let whole = parts.of_lane(lane, "whole");
-        for (part, what) in [("m", Give::M), ("q", Give::Qf), ("f", Give::Qf), ("r", Give::R), ("c", Give::C)]
+        for (part, what) in
+            [("m", Give::M), ("q", Give::Qf), ("f", Give::Qf), ("dist", Give::R), ("c", Give::C)]
         {
-            let register = prim[format!("{name}_{part}").as_str()];
+            // M of a slope edge is a constant.
+            let Some(register) = prim.get(&format!("{name}_{part}")) else { continue };
             let bits = register.q().width();
             let value = match part {
                 "m" => rest(lane).trunc(bits),
-                "q" => whole.trunc(bits),
+                "q" => whole.slice(below_column + bits - 1, below_column),
+                "f" | "dist" if below_column > 0 => whole.slice(bits, 1),
                 _ => rest(lane).slice(t + bits - 1, t),
             };
             register.when(gives(what), value);
@@ -56,15 +83,19 @@ pub(super) fn results<'m>(parts: &Parts<'_, 'm>, control: &Control<'m>, fields: 
             }
         }
     }
+    let channel_results = channel_results(parts.plan.fill);
     for (place, channel) in parts.plan.channels().iter().enumerate() {
         let (lane, round) = (place % parts.lanes.len(), place / parts.lanes.len());
         let whole = parts.of_lane(lane, "whole");
-        for (part, what, below) in
-            [("start", Give::Start, t), ("d0", Give::D0, 1), ("d1", Give::D1, 1), ("g", Give::G, 1)]
-        {
+        for &(part, what, below, of_part) in channel_results {
             let register = prim[format!("{}_{part}", channel.name).as_str()];
+            let below = if below { t } else { 1 };
             let value = whole.slice(below + register.q().width() - 1, below);
-            register.when(gives(what) & number.eq(round as u128), value);
+            register.when(numbered(what, round), value);
+            if let Some(part) = of_part {
+                // A part without lines has no values.
+                register.when(numbered(what, round) & !control.walked[part], 0);
+            }
         }
     }
     prim

@@ -3,7 +3,7 @@
 use edgewalk_netlist::Signal;
 
 use super::Parts;
-use super::code::{Jump, Mode, PART_BITS, ROW_BITS};
+use super::code::{FIRST_VALUE, Jump, Mode, PART_BITS, ROW_BITS};
 use super::control::Control;
 use super::digits::Digits;
 use super::shape::{channels, doublings, most_doublings};
@@ -40,13 +40,15 @@ pub(super) fn connect<'m>(
     ];
     let twice = |name: &str, signal| later(&format!("{name}_now"), later(&format!("{name}_next"), signal));
     let write_row = get("write_row");
-    let number = control.number & get("write_numbered").sext(3);
-    let write_row = m.cat(&[write_row.slice(write_row.width() - 1, 3), write_row.trunc(3) | number]);
+    let write_row = control.number.map_or(write_row, |number| {
+        let number = number & get("write_numbered").sext(3);
+        m.cat(&[write_row.slice(write_row.width() - 1, 3), write_row.trunc(3) | number])
+    });
     let write_row = input.fires.mux(input.row, twice("write_row", write_row).zext(ROW_BITS));
     let write_a = twice("write_a", get("write_a") & *runs);
     let write_w = twice("write_w", get("write_w") & *runs);
     let raised = later("step_raised", get("raised"));
-    let number = later("step_number", control.number);
+    let number = control.number.map(|number| later("step_number", number));
     let steps_later = later("does_step", steps);
     let pass = light_pass.number(m, 1, 0, 1);
     let rows: Vec<_> =
@@ -75,7 +77,7 @@ pub(super) fn connect<'m>(
             let alike = channels(parts.plan, lane).all(|(_, other)| doublings(parts.plan, other) == bits);
             let of_rounds = channels(parts.plan, lane)
                 .filter(|(_, other)| doublings(parts.plan, other) == bits)
-                .map(|(round, _)| number.eq(round as u128))
+                .filter_map(|(round, _)| number.map(|number| number.eq(round as u128)))
                 .reduce(|any, one| any | one);
             let raise = of_rounds.filter(|_| !alike).map_or(raised, |rounds| raised & rounds);
             instance.connect(&format!("raise_{bits}"), raise);
@@ -90,7 +92,10 @@ fn rests<'m>(parts: &Parts<'_, 'm>, control: &Control<'m>, lane: usize) -> Optio
         .map(|(round, channel)| (round, most[round] - doublings(parts.plan, channel)));
     let over = |(round, spare): (usize, u32)| {
         let few = control.count.le(u128::from(spare));
-        if most.len() == 1 { few } else { few & control.number.eq(round as u128) }
+        match control.number {
+            Some(number) if most.len() > 1 => few & number.eq(round as u128),
+            _ => few,
+        }
     };
     let over = spare.filter(|(_, spare)| *spare > 0).map(over).reduce(|any, one| any | one)?;
     Some(over & control.of_channels & parts.word.jumps(Jump::Again))
@@ -123,17 +128,22 @@ fn row<'m>(
     let [first, second, third] = control.order;
     let of_order = place.eq(0).mux(first, place.eq(1).mux(second, place.eq(2).mux(third, 3)));
     let part = row.trunc(PART_BITS);
-    let value = (control.number.zext(PART_BITS) + super::code::FIRST_VALUE).named(&format!("value{lane}"));
+    let value = match control.number {
+        Some(number) => (number.zext(PART_BITS) + FIRST_VALUE).named(&format!("value{lane}")),
+        None => m.lit(PART_BITS, FIRST_VALUE),
+    };
     let part = part.all().mux(value, part);
     let of_vertex = m.cat(&[m.lit(2, 2), of_order, part]);
     let is = |mode: Mode| word.is_mode(mode);
     let of_vertices = is(Mode::Vertex) | is(Mode::Upper) | is(Mode::Lower);
-    let numbered = m.cat(&[row.slice(ROW_BITS - 1, 3), row.trunc(3) | control.number]);
     let side = row.slice(1, 1);
     let side = parts.role.map_or(side, |[_, flat]| side ^ flat.q());
     let with_pass = m.cat(&[row.slice(ROW_BITS - 1, 2), side, pass]);
     let named =
         is(Mode::Digits).mux(low(digit), is(Mode::Edge).mux(low(edge), is(Mode::Pass).mux(with_pass, row)));
-    let named = is(Mode::Number).mux(numbered, named);
+    let named = control.number.map_or(named, |number| {
+        let numbered = m.cat(&[row.slice(ROW_BITS - 1, 3), row.trunc(3) | number]);
+        is(Mode::Number).mux(numbered, named)
+    });
     of_vertices.mux(of_vertex, named).named(&format!("row{lane}"))
 }

@@ -1,7 +1,7 @@
 //! Word lengths of the lanes, and the rows that are there from the start.
 
 use edgewalk_machine::sequencer::{Program, rounds};
-use edgewalk_machine::{Channel, Plan};
+use edgewalk_machine::{Channel, EdgeKind, Plan};
 
 use super::code::{FIRST_VALUE, PART_BITS, VERTICES};
 use super::lane::Shape;
@@ -9,6 +9,14 @@ use super::lane::Shape;
 /// Bits of a factor: what is sheared may be twice as long as a difference.
 pub(super) fn factor_bits(plan: &Plan) -> u32 {
     plan.widths().difference + 1
+}
+
+/// Bits of W below a whole column: F + 1 of a slope edge, which is rounded as twice its value, else 0.
+pub(super) fn below_column(plan: &Plan) -> u32 {
+    match plan.edge_kind {
+        EdgeKind::Exact => 0,
+        EdgeKind::Slope => plan.edge_fraction + 1,
+    }
 }
 
 /// Doublings of a channel: t + r - e.
@@ -36,7 +44,9 @@ pub(super) fn shape(plan: &Plan, program: &Program, lane: usize) -> Shape {
     let of_values = plan.channels().iter().map(|channel| channel.vertex_bits() + 5).max().unwrap_or(0);
     let rest = (2 * plan.widths().difference).max(of_values);
     let word = channels(plan, lane).map(|(_, channel)| channel.word() + t).max().unwrap_or(1);
-    let whole = word.max(factor_bits(plan));
+    // The fourth lane has no edge: the program takes columns from its W, and nothing reads them.
+    let below_column = if lane < 3 { below_column(plan) } else { 0 };
+    let whole = word.max(factor_bits(plan) + below_column);
     let mut raises: Vec<u32> = channels(plan, lane).map(|(_, channel)| doublings(plan, channel)).collect();
     raises.sort_unstable();
     raises.dedup();
@@ -45,6 +55,7 @@ pub(super) fn shape(plan: &Plan, program: &Program, lane: usize) -> Shape {
         whole,
         factor: factor_bits(plan),
         center_fraction: t,
+        below_column,
         raises,
         constants_a: constants(plan, program),
         constants_w: firsts(plan, lane, whole),

@@ -1,0 +1,1027 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+// edgewalk 0.1.0, machine 332c0ada4a3a
+
+// edgewalk_poly: POLY walks all edges of a polygon from line to line, a pair of them a span.
+//
+//   prim ─> LOAD ─> [edge table] ──────> PASS ─pair─> MOVER ─> line
+//             └──> [order list] ───────> │ ^            └────> inc, held for PIXEL
+//                  [active list of y] ─> B C D ─> [active list of y + 1]
+//
+// LOAD writes the edges of a polygon to one half of the table, and their numbers to the order list, by their first lines.
+// PASS goes through the active list of a line: each pair of columns is a span, each edge steps to the next line and goes
+// into its list, by its column. MOVER takes the values along, by d0 from line to line, by g from column to column.
+//
+// Timing: a line of n edges takes n + 2 clocks, an edge that enters 1 more, one that goes before m others m + 1 more.
+// MOVER takes a clock a line down, one for each bit of the number of columns, and one more.
+// Rules: a step takes f from R; where R is too small M is added back and the column goes one further (carry).
+// R - f is what is kept, so that its sign says whether the step carries.
+// A polygon of more edges than the table has places is refused: nothing of it is drawn.
+
+`timescale 1ns / 1ps
+`default_nettype none
+
+module edgewalk_poly (
+  input  wire        clk,
+  input  wire        rst,
+
+  input  wire        prim_valid,
+  input  wire  [8:0] prim_jm,           // first line
+  input  wire  [9:0] prim_n1,           // lines of the upper part
+  input  wire  [9:0] prim_n2,           // lines of the lower part
+  input  wire        prim_major_right,  // the major edge is the right one
+  input  wire  [2:0] prim_sides,        // major, first and second minor edge count, a bit each
+  input  wire        prim_ends,         // 1: a whole triangle or line, or the last edges of a polygon with its plane
+  input  wire        prim_void,         // the plane has no area: nothing is drawn
+  input  wire  [9:0] prim_start_x,      // column of the pixel at which values start
+  input  wire  [8:0] prim_start_y,      // its line, the first that is drawn
+  input  wire [14:0] prim_major_c,      // signed, first column on or right of the edge
+  input  wire [15:0] prim_major_dist,   // distance from the edge to that column, 2^-F column
+  input  wire [14:0] prim_major_q,      // signed, whole columns a line, step of c
+  input  wire [15:0] prim_major_f,      // 2^-F column a line
+  input  wire [14:0] prim_minor1_c,     // signed, first column on or right of the edge
+  input  wire [15:0] prim_minor1_dist,  // distance from the edge to that column, 2^-F column
+  input  wire [14:0] prim_minor1_q,     // signed, whole columns a line, step of c
+  input  wire [15:0] prim_minor1_f,     // 2^-F column a line
+  input  wire [14:0] prim_minor2_c,     // signed, first column on or right of the edge
+  input  wire [15:0] prim_minor2_dist,  // distance from the edge to that column, 2^-F column
+  input  wire [14:0] prim_minor2_q,     // signed, whole columns a line, step of c
+  input  wire [15:0] prim_minor2_f,     // 2^-F column a line
+  input  wire [37:0] prim_z_start,      // UQ24.14 LSB, modular, value at pixel (start_x, start_y)
+  input  wire [37:0] prim_z_d0,         // UQ24.14 LSB, modular, step to the next line
+  input  wire [37:0] prim_z_g,          // UQ24.14 LSB, modular, step to the next pixel to the right
+  input  wire [21:0] prim_height02,     // lines from vertex 0 to 2 of those sorted by line, 1/P line
+  input  wire [21:0] prim_height01,     // lines from vertex 0 to 1 of those sorted by line, 1/P line
+  input  wire [21:0] prim_height12,     // lines from vertex 1 to 2 of those sorted by line, 1/P line
+  input  wire [21:0] prim_down0,        // from vertex 0 down to the first line, 1/P line
+  input  wire [21:0] prim_down1,        // from vertex 1 down to the first line of the lower part, 1/P line
+  input  wire [11:0] prim_r_at0,        // UQ8.4 LSB
+  input  wire [11:0] prim_r_at1,        // UQ8.4 LSB
+  input  wire [11:0] prim_r_at2,        // UQ8.4 LSB
+  input  wire [11:0] prim_g_at0,        // UQ8.4 LSB
+  input  wire [11:0] prim_g_at1,        // UQ8.4 LSB
+  input  wire [11:0] prim_g_at2,        // UQ8.4 LSB
+  input  wire [11:0] prim_b_at0,        // UQ8.4 LSB
+  input  wire [11:0] prim_b_at1,        // UQ8.4 LSB
+  input  wire [11:0] prim_b_at2,        // UQ8.4 LSB
+  input  wire        line_ready,
+  input  wire        fresh_queued,      // the polygon before has not reached PIXEL yet
+
+  output wire        prim_ready,
+  output wire        line_valid,
+  output reg   [8:0] line_y,            // line
+  output reg  [14:0] line_cmaj,         // signed, first column of the span
+  output reg  [14:0] line_cmin,         // signed, column behind the span
+  output wire        line_major_right,  // the major edge is the right one
+  output reg  [37:0] line_z,            // UQ24.14 LSB, modular
+  output reg  [21:0] line_r,            // UQ8.14 LSB, modular
+  output reg  [21:0] line_g,            // UQ8.14 LSB, modular
+  output reg  [21:0] line_b,            // UQ8.14 LSB, modular
+  output wire        line_fresh,        // first span of the polygon
+  output wire        line_fence,        // older fragments of the same pixel may be in flight
+  output reg  [37:0] inc_z,             // UQ24.14 LSB, modular
+  output reg  [21:0] inc_r,             // UQ8.14 LSB, modular
+  output reg  [21:0] inc_g,             // UQ8.14 LSB, modular
+  output reg  [21:0] inc_b,             // UQ8.14 LSB, modular
+  output wire        walking,           // a polygon is walked, or its last span waits
+  output wire        refused            // a polygon ends here that has more edges than the table: nothing of it is drawn
+);
+
+  wire pass_writes;  // PASS writes a record
+
+  // The table of edges and the lists. A half of each is read while the other is written.
+  reg [61:0] steps [0:127];     // of each edge c, dist, q, f, as in the prim
+  reg [26:0] rests [0:127];     // of each edge R - f, signed, and the lines left
+  reg [14:0] order [0:127];     // first line and number of each edge, by the line
+  reg [36:0] lists [0:127];     // column, 2^F - 1 - R and number of each active edge, by the column, 2^F - 1 - R
+  reg [21:0] r_values [0:127];  // of each edge the colour on its line
+  reg [21:0] r_slopes [0:127];  // of each edge the colour's step to the next line
+  reg [21:0] g_values [0:127];  // of each edge the colour on its line
+  reg [21:0] g_slopes [0:127];  // of each edge the colour's step to the next line
+  reg [21:0] b_values [0:127];  // of each edge the colour on its line
+  reg [21:0] b_slopes [0:127];  // of each edge the colour's step to the next line
+
+  // LOAD: the sides of a prim that count and have lines, one after the other.
+  reg bank;                                       // half of the table that is loaded
+  reg [6:0] edges;                                // in that half
+  reg over;                                       // there are more
+  reg putting;                                    // an edge goes before others of the order list
+  reg [2:0] did;                                  // sides of the prim that are loaded
+  wire [9:0] all_lines = prim_n1 + prim_n2;
+  wire [8:0] knee = prim_jm + prim_n1[8:0];       // first line of the lower part
+  wire major_left = prim_sides[0] && ((|prim_n1) || (|prim_n2)) && !did[0];
+  wire minor1_left = prim_sides[1] && (|prim_n1) && !did[1];
+  wire minor2_left = prim_sides[2] && (|prim_n2) && !did[2];
+  wire any_left = major_left || minor1_left || minor2_left;
+  reg found;                                      // the colours of the edge are found
+  wire seeks = prim_valid && any_left && !found;  // colours of an edge are not found yet
+  wire [2:0] turn = {minor2_left && !major_left && !minor1_left,
+                     minor1_left && !major_left,
+                     major_left};
+  wire takes = prim_valid && !putting && any_left && !pass_writes && found;  // a side is loaded
+  wire of_major = prim_sides[0] && !did[0];
+  wire [8:0] first_line = of_major ? prim_jm : minor1_left ? prim_jm : knee;
+  wire [9:0] lines = of_major ? all_lines : minor1_left ? prim_n1 : prim_n2;
+  wire [14:0] loaded_c = of_major ? prim_major_c : minor1_left ? prim_minor1_c : prim_minor2_c;
+  wire [15:0] loaded_dist = of_major ? prim_major_dist
+                          : minor1_left ? prim_minor1_dist
+                          : prim_minor2_dist;
+  wire [14:0] loaded_q = of_major ? prim_major_q : minor1_left ? prim_minor1_q : prim_minor2_q;
+  wire [15:0] loaded_f = of_major ? prim_major_f : minor1_left ? prim_minor1_f : prim_minor2_f;
+  wire [21:0] edge_height = of_major ? prim_height02 : minor1_left ? prim_height01 : prim_height12;
+  wire [21:0] edge_down = of_major ? prim_down0 : minor1_left ? prim_down0 : prim_down1;
+
+  // Colours along an edge: pairs, whole and rest, of the modulus M, its height. First the difference of its ends over M, a digit a clock.
+  reg [6:0] seek_at;                 // clocks of the search so far
+  wire seek_begins = seek_at == 7'd0;
+  wire pair_stored = seek_at == 7'd13;
+  wire value_found = seek_at == 7'd46;
+  wire step_found = seek_at == 7'd65;
+  wire sums_down = (seek_at >= 7'd14) && (seek_at < 7'd36);
+  reg [21:0] down_digits;            // digits of the lines down that are left, the highest first
+  wire adds_pair = sums_down && down_digits[21];
+  wire takes_digits = seek_at < 7'd13;
+  wire [11:0] r_upper = of_major ? prim_r_at0 : minor1_left ? prim_r_at0 : prim_r_at1;
+  wire [11:0] r_lower = of_major ? prim_r_at2 : minor1_left ? prim_r_at1 : prim_r_at2;
+  wire [12:0] r_rise = {1'b0, r_lower} - {1'b0, r_upper};
+  reg [11:0] r_digits;               // digits of the difference that are left
+  reg [21:0] r_whole;                // whole part of the pair, 2^-r LSB at last
+  reg [21:0] r_rest;                 // what is left over, in 1/M
+  reg [21:0] r_pair_whole;           // the difference over M: whole part
+  reg [21:0] r_pair_rest;            // what is left over
+  wire [21:0] either = {21'd0, takes_digits && r_digits[11]} | (r_pair_rest & {22{adds_pair}});
+  wire [24:0] r_doubled = ({3'd0, r_rest} << 1) + {3'd0, either};
+  wire [24:0] r_less_one = r_doubled - {3'd0, edge_height};
+  wire [24:0] r_less_two = r_doubled - ({3'd0, edge_height} << 1);
+  wire inverse = !r_less_one[24];
+  wire [21:0] r_rounded = r_whole + {21'd0, inverse};
+  wire [21:0] r_first = r_rounded + ({10'd0, r_upper} << 10) + 22'd8192;
+  reg [21:0] r_edge_value;           // on the edge's first line, 2^-r LSB
+  reg [21:0] r_edge_step;            // to the next line
+  wire [11:0] g_upper = of_major ? prim_g_at0 : minor1_left ? prim_g_at0 : prim_g_at1;
+  wire [11:0] g_lower = of_major ? prim_g_at2 : minor1_left ? prim_g_at1 : prim_g_at2;
+  wire [12:0] g_rise = {1'b0, g_lower} - {1'b0, g_upper};
+  reg [11:0] g_digits;               // digits of the difference that are left
+  reg [21:0] g_whole;                // whole part of the pair, 2^-r LSB at last
+  reg [21:0] g_rest;                 // what is left over, in 1/M
+  reg [21:0] g_pair_whole;           // the difference over M: whole part
+  reg [21:0] g_pair_rest;            // what is left over
+  wire [21:0] either_2 = {21'd0, takes_digits && g_digits[11]} | (g_pair_rest & {22{adds_pair}});
+  wire [24:0] g_doubled = ({3'd0, g_rest} << 1) + {3'd0, either_2};
+  wire [24:0] g_less_one = g_doubled - {3'd0, edge_height};
+  wire [24:0] g_less_two = g_doubled - ({3'd0, edge_height} << 1);
+  wire inverse_2 = !g_less_one[24];
+  wire [21:0] g_rounded = g_whole + {21'd0, inverse_2};
+  wire [21:0] g_first = g_rounded + ({10'd0, g_upper} << 10) + 22'd8192;
+  reg [21:0] g_edge_value;           // on the edge's first line, 2^-r LSB
+  reg [21:0] g_edge_step;            // to the next line
+  wire [11:0] b_upper = of_major ? prim_b_at0 : minor1_left ? prim_b_at0 : prim_b_at1;
+  wire [11:0] b_lower = of_major ? prim_b_at2 : minor1_left ? prim_b_at1 : prim_b_at2;
+  wire [12:0] b_rise = {1'b0, b_lower} - {1'b0, b_upper};
+  reg [11:0] b_digits;               // digits of the difference that are left
+  reg [21:0] b_whole;                // whole part of the pair, 2^-r LSB at last
+  reg [21:0] b_rest;                 // what is left over, in 1/M
+  reg [21:0] b_pair_whole;           // the difference over M: whole part
+  reg [21:0] b_pair_rest;            // what is left over
+  wire [21:0] either_3 = {21'd0, takes_digits && b_digits[11]} | (b_pair_rest & {22{adds_pair}});
+  wire [24:0] b_doubled = ({3'd0, b_rest} << 1) + {3'd0, either_3};
+  wire [24:0] b_less_one = b_doubled - {3'd0, edge_height};
+  wire [24:0] b_less_two = b_doubled - ({3'd0, edge_height} << 1);
+  wire inverse_3 = !b_less_one[24];
+  wire [21:0] b_rounded = b_whole + {21'd0, inverse_3};
+  wire [21:0] b_first = b_rounded + ({10'd0, b_upper} << 10) + 22'd8192;
+  reg [21:0] b_edge_value;           // on the edge's first line, 2^-r LSB
+  reg [21:0] b_edge_step;            // to the next line
+  assign prim_ready = !putting && !any_left && !(prim_ends && (walking || fresh_queued));
+  wire fires = prim_valid && prim_ready;
+  wire closes = fires && prim_ends;  // the polygon has all its edges
+  wire may_begin = prim_valid
+                && prim_ends
+                && !putting
+                && !walking
+                && !fresh_queued
+                && (|edges)
+                && !over
+                && !prim_void;
+  wire begins = may_begin && !any_left;
+  assign refused = closes && over;
+  wire stores = takes && !edges[6];
+  wire [6:0] load_place = {bank, edges[5:0]};
+
+  always @(posedge clk) begin
+    if (stores) steps[load_place] <= {loaded_c, loaded_dist, loaded_q, loaded_f};
+  end
+
+  always @(posedge clk) begin
+    if (stores) r_slopes[load_place] <= r_edge_step;
+  end
+
+  always @(posedge clk) begin
+    if (stores) g_slopes[load_place] <= g_edge_step;
+  end
+
+  always @(posedge clk) begin
+    if (stores) b_slopes[load_place] <= b_edge_step;
+  end
+
+  wire [16:0] first_rest = {1'b0, loaded_dist} - {1'b0, loaded_f};  // R - f, signed
+
+  always @(posedge clk) begin
+    if (rst) begin
+      seek_at <= 7'd0;
+    end else if (seeks) begin
+      seek_at <= step_found ? 7'd0 : seek_at + 7'd1;
+    end
+  end
+
+  always @(posedge clk) begin
+    if (rst) begin
+      found <= 1'b0;
+    end else begin
+      if (takes) found <= 1'b0;
+      if (seeks && step_found) found <= 1'b1;
+    end
+  end
+
+  wire inverse_4 = !r_less_two[24];
+  wire [21:0] sum = (r_whole << 1)
+                  + (r_pair_whole & {22{adds_pair}})
+                  + {20'd0, {inverse_4, inverse && !inverse_4}};
+  wire [24:0] choice = inverse_4 ? r_less_two : inverse ? r_less_one : r_doubled;
+  wire inverse_5 = !g_less_two[24];
+  wire [21:0] sum_2 = (g_whole << 1)
+                    + (g_pair_whole & {22{adds_pair}})
+                    + {20'd0, {inverse_5, inverse_2 && !inverse_5}};
+  wire [24:0] choice_2 = inverse_5 ? g_less_two : inverse_2 ? g_less_one : g_doubled;
+  wire inverse_6 = !b_less_two[24];
+  wire [21:0] sum_3 = (b_whole << 1)
+                    + (b_pair_whole & {22{adds_pair}})
+                    + {20'd0, {inverse_6, inverse_3 && !inverse_6}};
+  wire [24:0] choice_3 = inverse_6 ? b_less_two : inverse_3 ? b_less_one : b_doubled;
+
+  always @(posedge clk) begin
+    if (seeks) begin
+      down_digits <= pair_stored ? edge_down : down_digits << 1;
+      r_digits <= seek_begins ? r_rise[11:0] : r_digits << 1;
+      r_whole <= seek_begins ? {22{r_rise[12]}}
+               : pair_stored ? 22'd0
+               : value_found ? r_pair_whole
+               : sum;
+      r_rest <= seek_begins ? (r_rise[12] ? edge_height - 22'd1 : 22'd0)
+              : pair_stored ? 22'd0
+              : value_found ? r_pair_rest
+              : choice[21:0];
+      g_digits <= seek_begins ? g_rise[11:0] : g_digits << 1;
+      g_whole <= seek_begins ? {22{g_rise[12]}}
+               : pair_stored ? 22'd0
+               : value_found ? g_pair_whole
+               : sum_2;
+      g_rest <= seek_begins ? (g_rise[12] ? edge_height - 22'd1 : 22'd0)
+              : pair_stored ? 22'd0
+              : value_found ? g_pair_rest
+              : choice_2[21:0];
+      b_digits <= seek_begins ? b_rise[11:0] : b_digits << 1;
+      b_whole <= seek_begins ? {22{b_rise[12]}}
+               : pair_stored ? 22'd0
+               : value_found ? b_pair_whole
+               : sum_3;
+      b_rest <= seek_begins ? (b_rise[12] ? edge_height - 22'd1 : 22'd0)
+              : pair_stored ? 22'd0
+              : value_found ? b_pair_rest
+              : choice_3[21:0];
+    end
+  end
+
+  always @(posedge clk) begin
+    if (seeks && pair_stored) begin
+      r_pair_whole <= r_whole;
+      r_pair_rest <= r_rest;
+      g_pair_whole <= g_whole;
+      g_pair_rest <= g_rest;
+      b_pair_whole <= b_whole;
+      b_pair_rest <= b_rest;
+    end
+  end
+
+  always @(posedge clk) begin
+    if (seeks && value_found) begin
+      r_edge_value <= r_first;
+      g_edge_value <= g_first;
+      b_edge_value <= b_first;
+    end
+  end
+
+  always @(posedge clk) begin
+    if (seeks && step_found) begin
+      r_edge_step <= r_rounded;
+      g_edge_step <= g_rounded;
+      b_edge_step <= b_rounded;
+    end
+  end
+
+  always @(posedge clk) begin
+    if (rst) begin
+      bank <= 1'b0;
+    end else if (closes) begin
+      bank <= !bank;
+    end
+  end
+
+  always @(posedge clk) begin
+    if (rst) begin
+      did <= 3'd0;
+    end else begin
+      if (takes) did <= did | turn;
+      if (fires) did <= 3'd0;
+    end
+  end
+
+  always @(posedge clk) begin
+    if (rst) begin
+      over <= 1'b0;
+    end else begin
+      if (takes && edges[6]) over <= 1'b1;
+      if (closes) over <= 1'b0;
+    end
+  end
+
+  // The order list: those that begin later move up, a clock each.
+  reg [8:0] last_first;  // first line of the last edge of the list
+  reg [5:0] position;    // the place that is free
+  reg [8:0] put_line;    // first line of the edge that is put there
+  wire top_later = prim_jm >= last_first;
+  wire knee_later = knee >= last_first;
+  wire later = ((of_major || minor1_left) ? top_later : knee_later) || !(|edges);  // no edge of the list begins later
+  wire appends = stores && later;
+  wire inserts = stores && !later;
+  wire [5:0] below = (putting ? position - 6'd1 : edges[5:0]) - 6'd1;
+  reg [14:0] order_q;
+
+  always @(posedge clk) begin
+    if (prim_valid) order_q <= order[{bank, below}];
+  end
+
+  wire moves_up = putting && (|position) && (order_q[14:6] > put_line);
+  wire ended = putting && !moves_up;
+  wire [5:0] order_place = putting ? position : edges[5:0];
+
+  always @(posedge clk) begin
+    if (appends || putting) order[{bank, order_place}] <= {putting ? (moves_up ? order_q[14:6] : put_line) : first_line,
+ putting ? (moves_up ? order_q[5:0] : edges[5:0]) : edges[5:0]};
+  end
+
+  wire pair_leaves;  // MOVER takes the pair that waits, or drops it
+
+  always @(posedge clk) begin
+    if (appends) last_first <= first_line;
+  end
+
+  always @(posedge clk) begin
+    if (!putting) put_line <= first_line;
+  end
+
+  always @(posedge clk) begin
+    if (moves_up) position <= position - 6'd1;
+    if (inserts) position <= edges[5:0];
+  end
+
+  always @(posedge clk) begin
+    if (rst) begin
+      putting <= 1'b0;
+    end else begin
+      if (ended) putting <= 1'b0;
+      if (inserts) putting <= 1'b1;
+    end
+  end
+
+  always @(posedge clk) begin
+    if (rst) begin
+      edges <= 7'd0;
+    end else begin
+      if (appends || ended) edges <= edges + 7'd1;
+      if (closes) edges <= 7'd0;
+    end
+  end
+
+  // PASS: the active list of line y through the stages B, a word, and C, the word with its record.
+  reg run;                             // lines are passed
+  reg [8:0] y;                         // the line
+  reg [8:0] y_below;                   // the line below
+  reg list;                            // the active list that is read: that of the line
+  reg half;                            // the first column of a pair is there
+  reg b_valid;
+  reg c_valid;
+  reg entering;                        // the edge of C begins on the next line
+  reg pair_waits;                      // a pair of columns waits for MOVER
+  wire passed = c_valid && !entering;  // the edge of C meets line y
+  wire closes_pair = passed && half;
+  wire blocked = closes_pair && pair_waits;
+
+  // Stage D: does the edge go behind the last of its list, or before some?
+  reg [6:0] count;       // edges in the list of the next line
+  reg [30:0] d_key;      // signed, column, 2^F - 1 - R of the edge on the next line
+  reg [5:0] d_index;     // its number
+  reg [30:0] head_key;   // signed, first column, 2^F - 1 - R of the list
+  reg [5:0] head_index;  // its number
+  reg [30:0] top_key;    // signed, last column, 2^F - 1 - R of the list
+  reg [5:0] top_index;   // its number
+  reg d_valid;
+  reg moving;            // words move up for the edge of D
+  wire before_top = $signed(d_key) < $signed(top_key);
+  wire begins_moving = d_valid && !moving && (|count) && before_top;
+  wire advance = run && !(moving || begins_moving) && !blocked;
+
+  // The next edge of the order list; while no polygon is walked, the first of the one that is loaded.
+  reg [6:0] waiting;     // edges that have not entered
+  reg [5:0] order_next;  // place behind that of the next edge
+  wire [14:0] order_word;
+  wire some_waits = |waiting;
+  wire begins_on_next = order_word[14:6] == y_below;
+  wire enters = run && !b_valid && some_waits && begins_on_next;
+  wire entered = advance && enters;
+  reg [14:0] order_q2;
+
+  always @(posedge clk) begin
+    if (!run || entered) order_q2 <= order[{bank ^ run, order_next & {6{run}}}];
+  end
+
+  assign order_word = order_q2;
+  wire line_ends = run && !d_valid && !b_valid && !c_valid && !enters;  // no edge is left on it, none enters
+  wire next_line_starts = line_ends && (|count);
+
+  always @(posedge clk) begin
+    if (entered) begin
+      waiting <= waiting - 7'd1;
+      order_next <= order_next + 6'd1;
+    end
+    if (!run) begin
+      waiting <= edges;
+      order_next <= 6'd1;
+    end
+  end
+
+  // Stage B: the next word of the list. Its first is kept in a register, to begin with on the next line.
+  reg [6:0] unread;     // words of the list not read yet
+  reg [5:0] next_word;  // place of the next word
+  wire some_unread = |unread;
+  wire several = count > 7'd1;
+  wire reads = advance && some_unread;
+  reg [36:0] lists_q;
+
+  always @(posedge clk) begin
+    if (advance) lists_q <= lists[{some_unread ? list : !list, some_unread ? next_word : 6'd1}];
+  end
+
+  always @(posedge clk) begin
+    if (rst) begin
+      unread <= 7'd0;
+    end else begin
+      if (reads) unread <= unread - 7'd1;
+      if (line_ends) unread <= several ? count - 7'd2 : 7'd0;
+    end
+  end
+
+  always @(posedge clk) begin
+    if (reads) next_word <= next_word + 6'd1;
+    if (line_ends) next_word <= 6'd2;
+  end
+
+  always @(posedge clk) begin
+    if (rst) begin
+      b_valid <= 1'b0;
+    end else if (advance) begin
+      b_valid <= some_unread || (line_ends && several);
+    end
+  end
+
+  // Stage C: the word with its record.
+  wire [5:0] next_index = b_valid ? lists_q[5:0] : enters ? order_word[5:0] : head_index;
+  wire [6:0] read_place = {!bank, next_index};
+  reg [61:0] steps_q;
+
+  always @(posedge clk) begin
+    if (advance) steps_q <= steps[read_place];
+  end
+
+  reg [26:0] rests_q;
+
+  always @(posedge clk) begin
+    if (advance) rests_q <= rests[read_place];
+  end
+
+  wire [9:0] lines_left = rests_q[9:0];
+  wire [16:0] rest = rests_q[26:10];  // R - f, signed
+  reg [30:0] c_key;
+  reg [5:0] c_index;
+
+  always @(posedge clk) begin
+    if (advance) begin
+      c_key <= b_valid ? lists_q[36:6] : head_key;
+      c_index <= next_index;
+      entering <= !b_valid && enters;
+    end
+  end
+
+  always @(posedge clk) begin
+    if (rst) begin
+      c_valid <= 1'b0;
+    end else if (advance) begin
+      c_valid <= b_valid || enters || next_line_starts;
+    end
+  end
+
+  // Each second column closes a pair. While no pair waits its place takes what may become one.
+  wire walked = advance && passed;
+  reg [30:0] left;  // first column, 2^F - 1 - R of the pair
+
+  always @(posedge clk) begin
+    if (!half) left <= c_key;
+  end
+
+  // Colours of the edge in C.
+  reg [21:0] r_values_q;
+
+  always @(posedge clk) begin
+    if (advance) r_values_q <= r_values[read_place];
+  end
+
+  wire [21:0] c_r = r_values_q;
+  reg [21:0] r_slopes_q;
+
+  always @(posedge clk) begin
+    if (advance) r_slopes_q <= r_slopes[read_place];
+  end
+
+  wire [21:0] c_r_step = r_slopes_q;
+  reg [21:0] g_values_q;
+
+  always @(posedge clk) begin
+    if (advance) g_values_q <= g_values[read_place];
+  end
+
+  wire [21:0] c_g = g_values_q;
+  reg [21:0] g_slopes_q;
+
+  always @(posedge clk) begin
+    if (advance) g_slopes_q <= g_slopes[read_place];
+  end
+
+  wire [21:0] c_g_step = g_slopes_q;
+  reg [21:0] b_values_q;
+
+  always @(posedge clk) begin
+    if (advance) b_values_q <= b_values[read_place];
+  end
+
+  wire [21:0] c_b = b_values_q;
+  reg [21:0] b_slopes_q;
+
+  always @(posedge clk) begin
+    if (advance) b_slopes_q <= b_slopes[read_place];
+  end
+
+  wire [21:0] c_b_step = b_slopes_q;
+  reg [21:0] left_r;
+  reg [21:0] left_g;
+  reg [21:0] left_b;
+  wire pair_closed = advance && closes_pair;
+  wire [14:0] part = c_key[30:16];
+  wire right_cut = !part[14] && (part >= 15'd640);  // the pair ends beside the screen
+  wire [14:0] part_2 = left[30:16];
+  wire left_cut = part_2[14];                       // the pair begins beside the screen
+  wire some_columns = ($signed(part_2) < $signed(part))  // of the screen
+                   && !(!part_2[14] && (part_2 >= 15'd640))
+                   && !part[14] && (|part);
+  wire [14:0] first = left_cut ? 15'd0 : part_2;
+  wire [14:0] behind = right_cut ? 15'd640 : part;
+  reg [8:0] pair_line;
+  reg pair_some;
+  reg [14:0] pair_first;
+  reg [14:0] pair_behind;
+  reg [30:0] pair_left_key;
+  reg [21:0] pair_left_r;
+  reg [21:0] pair_left_g;
+  reg [21:0] pair_left_b;
+  reg [30:0] pair_right_key;
+  reg [21:0] pair_right_r;
+  reg [21:0] pair_right_g;
+  reg [21:0] pair_right_b;
+
+  always @(posedge clk) begin
+    if (!half) begin
+      left_r <= c_r;
+      left_g <= c_g;
+      left_b <= c_b;
+    end
+  end
+
+  always @(posedge clk) begin
+    if (rst) begin
+      half <= 1'b0;
+    end else begin
+      if (walked) half <= !half;
+      if (line_ends) half <= 1'b0;
+    end
+  end
+
+  always @(posedge clk) begin
+    if (rst) begin
+      pair_waits <= 1'b0;
+    end else begin
+      if (pair_leaves) pair_waits <= 1'b0;
+      if (pair_closed) pair_waits <= 1'b1;
+    end
+  end
+
+  always @(posedge clk) begin
+    if (!pair_waits) begin
+      pair_line <= y;
+      pair_some <= some_columns;
+      pair_first <= first;
+      pair_behind <= behind;
+      pair_left_key <= left;
+      pair_left_r <= left_r;
+      pair_left_g <= left_g;
+      pair_left_b <= left_b;
+      pair_right_key <= c_key;
+      pair_right_r <= c_r;
+      pair_right_g <= c_g;
+      pair_right_b <= c_b;
+    end
+  end
+
+  // Stage D: the edge on the next line, and its record written back.
+  wire leaves = !entering && (lines_left == 10'd1);  // line y is its last one
+  wire [14:0] stepped = c_key[30:16] + steps_q[30:16] + {14'd0, rest[16]};
+  reg [16:0] d_rest;                                 // R - f, signed
+  reg [9:0] d_lines_left;
+  reg writes;                                        // the record of D is written
+  wire rests_written = stores || writes;
+  wire [6:0] choice_4 = writes ? {!bank, d_index} : load_place;
+
+  always @(posedge clk) begin
+    if (rests_written) rests[choice_4] <= writes ? {d_rest, d_lines_left} : {first_rest, lines};
+  end
+
+  reg [21:0] d_r;
+
+  always @(posedge clk) begin
+    if (rests_written) r_values[choice_4] <= writes ? d_r : r_edge_value;
+  end
+
+  reg [21:0] d_g;
+
+  always @(posedge clk) begin
+    if (rests_written) g_values[choice_4] <= writes ? d_g : g_edge_value;
+  end
+
+  reg [21:0] d_b;
+
+  always @(posedge clk) begin
+    if (rests_written) b_values[choice_4] <= writes ? d_b : b_edge_value;
+  end
+
+  always @(posedge clk) begin
+    if (advance) begin
+      d_rest <= {1'b0, rest[15:0]} - {1'b0, steps_q[15:0]};
+      d_lines_left <= lines_left - 10'd1;
+      d_r <= c_r + c_r_step;
+      d_g <= c_g + c_g_step;
+      d_b <= c_b + c_b_step;
+    end
+  end
+
+  always @(posedge clk) begin
+    if (rst) begin
+      writes <= 1'b0;
+    end else begin
+      writes <= advance && passed && !leaves;
+    end
+  end
+
+  // The words before which the edge goes move up, the last of them first; then it takes the gap.
+  reg [5:0] gap;  // the place that is free
+  wire [5:0] before_gap = (moving ? gap - 6'd1 : count[5:0] - 6'd1) - 6'd1;
+  reg [36:0] lists_q2;
+
+  always @(posedge clk) begin
+    if (d_valid) lists_q2 <= lists[{!list, before_gap}];
+  end
+
+  wire shifts = moving && (|gap) && ($signed(d_key) < $signed(lists_q2[36:6]));
+  wire placed = d_valid && !begins_moving && !shifts;  // the edge has its place
+  wire [5:0] list_place = moving ? gap : count[5:0];
+  wire moved = begins_moving || shifts;
+
+  always @(posedge clk) begin
+    if (d_valid) lists[{!list, list_place}] <= {moved ? (shifts ? lists_q2[36:6] : top_key) : d_key,
+ moved ? (shifts ? lists_q2[5:0] : top_index) : d_index};
+  end
+
+  always @(posedge clk) begin
+    if (rst) begin
+      moving <= 1'b0;
+    end else begin
+      if (placed) moving <= 1'b0;
+      if (begins_moving) moving <= 1'b1;
+    end
+  end
+
+  always @(posedge clk) begin
+    if (shifts) gap <= gap - 6'd1;
+    if (begins_moving) gap <= count[5:0] - 6'd1;
+  end
+
+  always @(posedge clk) begin
+    if (placed && (moving ? !(|gap) : !(|count))) begin
+      head_key <= d_key;
+      head_index <= d_index;
+    end
+  end
+
+  always @(posedge clk) begin
+    if (placed && !moving) begin
+      top_key <= d_key;
+      top_index <= d_index;
+    end
+  end
+
+  always @(posedge clk) begin
+    if (rst) begin
+      count <= 7'd0;
+    end else begin
+      if (placed) count <= count + 7'd1;
+      if (line_ends) count <= 7'd0;
+    end
+  end
+
+  always @(posedge clk) begin
+    if (rst) begin
+      d_valid <= 1'b0;
+    end else begin
+      if (placed) d_valid <= 1'b0;
+      if (advance) d_valid <= c_valid && !leaves;
+    end
+  end
+
+  always @(posedge clk) begin
+    if (advance) begin
+      d_key <= entering ? {steps_q[61:47], ~steps_q[46:31]} : {stepped, ~rest[15:0]};
+      d_index <= c_index;
+    end
+  end
+
+  // The next line.
+  wire polygon_ends = line_ends && !(|count) && !some_waits;
+  wire [8:0] line_before = prim_start_y - 9'd1;
+  assign pass_writes = writes;
+
+  always @(posedge clk) begin
+    if (rst) begin
+      run <= 1'b0;
+    end else begin
+      if (polygon_ends) run <= 1'b0;
+      if (begins) run <= 1'b1;
+    end
+  end
+
+  always @(posedge clk) begin
+    if (line_ends) begin
+      y <= y_below;
+      y_below <= y_below + 9'd1;
+    end
+    if (!run) begin
+      y <= line_before;
+      y_below <= prim_start_y;
+    end
+  end
+
+  always @(posedge clk) begin
+    if (rst) begin
+      list <= 1'b0;
+    end else if (line_ends) begin
+      list <= !list;
+    end
+  end
+
+  // MOVER: the pair that waits; it is dropped if it has no column of the screen.
+  reg has_span;  // a span is offered, or values move to it
+  wire line_fires = line_valid && line_ready;
+  wire free = !has_span || line_fires;
+  wire takes_pair = pair_waits && pair_some && free;
+
+  always @(posedge clk) begin
+    if (rst) begin
+      has_span <= 1'b0;
+    end else begin
+      if (line_fires) has_span <= 1'b0;
+      if (takes_pair) has_span <= 1'b1;
+    end
+  end
+
+  // The way to the span: lines down, then columns to the right or to the left.
+  reg [8:0] at_line;        // line of the span before
+  reg [9:0] at_column;      // its first column
+  wire [10:0] beside = {1'b0, pair_first[9:0]} - {1'b0, at_column};  // signed, columns
+  wire [9:0] back = at_column - pair_first[9:0];
+  wire [9:0] columns_away = beside[10] ? back : beside[9:0];
+  reg [8:0] lines_down;     // lines left to go down
+  reg [9:0] columns_along;  // columns left to go, in doubles of what is added
+  reg down;                 // lines are left
+  reg along;                // columns are left
+  reg to_left;              // they lie to the left
+  wire doubles = !down && along;
+  wire adds = down || (along && columns_along[0]);
+
+  always @(posedge clk) begin
+    if (takes_pair) begin
+      at_line <= pair_line;
+      at_column <= pair_first[9:0];
+    end
+    if (!walking) begin
+      at_line <= prim_start_y;
+      at_column <= prim_start_x;
+    end
+  end
+
+  always @(posedge clk) begin
+    if (takes_pair) to_left <= beside[10];
+  end
+
+  always @(posedge clk) begin
+    if (down) lines_down <= lines_down - 9'd1;
+    if (takes_pair) lines_down <= pair_line - at_line;
+  end
+
+  always @(posedge clk) begin
+    if (rst) begin
+      down <= 1'b0;
+    end else begin
+      if (down) down <= lines_down != 9'd1;
+      if (takes_pair) down <= pair_line != at_line;
+    end
+  end
+
+  wire [9:0] shifted = columns_along >> 1;
+
+  always @(posedge clk) begin
+    if (doubles) columns_along <= shifted;
+    if (takes_pair) columns_along <= columns_away;
+  end
+
+  always @(posedge clk) begin
+    if (rst) begin
+      along <= 1'b0;
+    end else begin
+      if (doubles) along <= |shifted;
+      if (takes_pair) along <= pair_first[9:0] != at_column;
+    end
+  end
+
+  // Colours from edge to edge. Digits of the place of the first pixel, over the width between the edges; then those of a pixel. Each sum is the colours' difference times the digits so far.
+  reg dividing;                                // digits are found
+  reg [5:0] turns;                             // digits found
+  reg [30:0] apart;                            // from edge to edge, 2^-F px
+  wire [30:0] into = {pair_first, 16'hffff} - pair_left_key;  // from the left edge to the first pixel, 2^-F px
+  reg [30:0] apart_rest;                       // what is left over of the division
+  wire [32:0] shifted_2 = {2'd0, apart_rest} << 1;
+  wire [32:0] less_apart = shifted_2 - {2'd0, apart};
+  wire digit = !less_apart[32];
+  wire wide = apart > 31'h10000;               // the edges are more than a pixel apart
+  wire starts = dividing && (turns == 6'd23);  // the sums are those of the first pixel
+  reg [22:0] r_difference;                     // of the right and the left edge, signed
+  reg [45:0] r_sum;                            // times the digits so far, signed
+  wire [21:0] r_part = r_sum[44:23] + {21'd0, r_sum[22]};
+  reg [22:0] g_difference;                     // of the right and the left edge, signed
+  reg [45:0] g_sum;                            // times the digits so far, signed
+  wire [21:0] g_part = g_sum[44:23] + {21'd0, g_sum[22]};
+  reg [22:0] b_difference;                     // of the right and the left edge, signed
+  reg [45:0] b_sum;                            // times the digits so far, signed
+  wire [21:0] b_part = b_sum[44:23] + {21'd0, b_sum[22]};
+  reg offers;                                  // the span is offered
+  wire grants = has_span && !down && !along && !dividing && !offers && !fresh_queued;  // its increments are shown, and it is offered
+  assign line_valid = has_span && offers;
+  wire [32:0] choice_5 = digit ? less_apart : shifted_2;
+
+  always @(posedge clk) begin
+    if (dividing) begin
+      turns <= turns + 6'd1;
+      apart_rest <= (turns == 6'd22) ? (wide ? 31'h10000 : 31'd0) : choice_5[30:0];
+      r_sum <= ((turns == 6'd23) ? 46'd0 : r_sum << 1)
+             + ({{23{r_difference[22]}}, r_difference} & {46{digit}});
+      g_sum <= ((turns == 6'd23) ? 46'd0 : g_sum << 1)
+             + ({{23{g_difference[22]}}, g_difference} & {46{digit}});
+      b_sum <= ((turns == 6'd23) ? 46'd0 : b_sum << 1)
+             + ({{23{b_difference[22]}}, b_difference} & {46{digit}});
+    end
+    if (takes_pair) begin
+      turns <= 6'd0;
+      apart_rest <= into;
+      r_sum <= 46'd0;
+      g_sum <= 46'd0;
+      b_sum <= 46'd0;
+    end
+  end
+
+  always @(posedge clk) begin
+    if (rst) begin
+      dividing <= 1'b0;
+    end else begin
+      if (turns == 6'd45) dividing <= 1'b0;
+      if (takes_pair) dividing <= 1'b1;
+    end
+  end
+
+  always @(posedge clk) begin
+    if (takes_pair) begin
+      apart <= pair_right_key - pair_left_key;
+      r_difference <= {1'b0, pair_right_r} - {1'b0, pair_left_r};
+      g_difference <= {1'b0, pair_right_g} - {1'b0, pair_left_g};
+      b_difference <= {1'b0, pair_right_b} - {1'b0, pair_left_b};
+    end
+  end
+
+  always @(posedge clk) begin
+    if (rst) begin
+      offers <= 1'b0;
+    end else begin
+      if (line_fires) offers <= 1'b0;
+      if (grants) offers <= 1'b1;
+    end
+  end
+
+  // The line that is offered. While no polygon is walked everything takes the next one, again and again.
+  reg line_first;  // first span of the polygon
+
+  always @(posedge clk) begin
+    if (takes_pair) begin
+      line_y <= pair_line;
+      line_cmaj <= pair_first;
+      line_cmin <= pair_behind;
+    end
+  end
+
+  always @(posedge clk) begin
+    if (line_fires) line_first <= 1'b0;
+    if (!walking) line_first <= 1'b1;
+  end
+
+  // Values: d0 is added once a line. For each set bit i of the number of columns the increment, doubled i times, is added.
+  reg [37:0] z_d0;     // step to the next line
+  reg [37:0] z_along;  // increment, doubled as often as it was asked for
+  wire [37:0] z_added = down ? z_d0 : z_along ^ {38{to_left}};
+  wire [38:0] z_moved = {line_z, 1'b1} + {z_added, !down && to_left};  // and a carry out of the lowest bit
+  assign pair_leaves = pair_waits && (free || !pair_some);
+  assign walking = run || pair_waits || has_span;
+
+  always @(posedge clk) begin
+    if (starts) begin
+      line_r <= line_r + r_part;
+      line_g <= line_g + g_part;
+      line_b <= line_b + b_part;
+    end
+    if (takes_pair) begin
+      line_r <= pair_left_r;
+      line_g <= pair_left_g;
+      line_b <= pair_left_b;
+    end
+  end
+
+  always @(posedge clk) begin
+    if (grants) begin
+      inc_r <= r_part;
+      inc_g <= g_part;
+      inc_b <= b_part;
+    end
+  end
+
+  always @(posedge clk) begin
+    if (begins) inc_z <= prim_z_g;
+  end
+
+  always @(posedge clk) begin
+    if (!walking) z_d0 <= prim_z_d0;
+  end
+
+  always @(posedge clk) begin
+    if (doubles) z_along <= z_along << 1;
+    if (takes_pair) z_along <= inc_z;
+  end
+
+  always @(posedge clk) begin
+    if (adds) line_z <= z_moved[38:1];
+    if (!walking) line_z <= prim_z_start;
+  end
+
+  assign line_major_right = 1'b0;
+  assign line_fresh = 1'b1;
+  assign line_fence = line_first;
+
+  // Not needed, on purpose.
+  wire unused = &{
+    1'b0, prim_major_right, z_moved[0], choice[24:22], choice_2[24:22], choice_3[24:22],
+    choice_5[32:31]
+  };
+
+endmodule
+
+`default_nettype wire
