@@ -4,6 +4,8 @@ In each cycle `drive()` gives the inputs by the unit's names, and `sample(output
 edge. An output with unknown bits is None.
 """
 
+from .directory import VectorsError
+
 
 class Fault(AssertionError):
     """What a design did wrong."""
@@ -71,17 +73,30 @@ class Memory(Source):
             self.words[token[write["address"]]] = token[write["word"]]
 
 
+class Held:
+    """The rule of a channel out: a token that is offered stays as it is until it is taken."""
+
+    def __init__(self):
+        self.last = None
+
+    def broken(self, valid, token, ready):
+        """Whether the rule is broken in this cycle."""
+        broken = self.last is not None and (valid != 1 or token != self.last)
+        self.last = token if valid == 1 and not ready else None
+        return broken
+
+
 class Sink:
     """Compares the tokens that come out, and the cycles in which they do where these count."""
 
-    def __init__(self, channel, directory, pattern, absent):
+    def __init__(self, channel, directory, pattern, absent, by_cycle):
         self.name, self.channel, self.willing = channel["name"], channel, pattern
         self.fields = [field for field in channel["fields"] if field["port"] not in absent]
         self.wanted = directory.numbers(channel["tokens"])
-        self.cycles = directory.steps(channel["moved"])
+        self.cycles = directory.steps(channel["moved"]) if by_cycle else None
         triangles = channel["triangles"]
         self.triangles = directory.steps(triangles) if triangles else None
-        self.directory, self.came, self.faults, self.last = directory, 0, [], None
+        self.directory, self.came, self.faults, self.held = directory, 0, [], Held()
         self.always = f"{self.name}_ready" in absent
 
     def drive(self, cycle, inputs):
@@ -91,21 +106,22 @@ class Sink:
     def sample(self, cycle, outputs, moved):
         valid = outputs[f"{self.name}_valid"]
         token = {field["port"]: outputs[field["port"]] for field in self.fields}
-        if self.last is not None and (valid != 1 or token != self.last):
+        if self.held.broken(valid, token, self.ready):
             self.faults.append(f"{self.name}: cycle {cycle}: the token changed, or valid fell, before it was taken")
-        self.last = token if valid == 1 and not self.ready else None
         if valid == 0 or not self.ready:
             return
         if self.came == len(self.wanted):
             self.faults.append(f"{self.name}: cycle {cycle}: one more than the {self.came} expected")
             return
+        if valid is None:
+            self.faults.append(f"{self.where(cycle)}: {self.name}_valid: unknown bits")
         want = self.wanted[self.came]
         for field in self.fields:
             wanted, found = want >> field["lsb"] & (1 << field["width"]) - 1, token[field["port"]]
-            if valid is None or found != wanted:
+            if found != wanted:
                 shown = "unknown bits" if found is None else f"{found:x}"
                 self.faults.append(f"{self.where(cycle)}: {field['port']}: expected {wanted:x}, found {shown}")
-        if self.channel["compare"] == "cycle" and cycle != self.cycles[self.came]:
+        if self.cycles is not None and cycle != self.cycles[self.came]:
             self.faults.append(f"{self.where(cycle)}: expected in cycle {self.cycles[self.came]}")
         # The memories go on with what ought to have come, so that one fault is not followed by many.
         moved[self.name] = {
@@ -125,34 +141,50 @@ class Bench:
     """Drives a design by a directory and compares what comes out.
 
     `drive()` returns the inputs of a cycle, `sample(outputs)` takes its outputs and says whether the run goes on, and
-    `finish()` raises `Fault` unless everything expected came, as expected, and nothing else. Names are the unit's.
+    `finish()` raises `Fault` unless everything expected came, as expected, and nothing else. Names are the unit's;
+    `outputs` are those that are sampled. `absent` are ports that the design has not got, and `compare` is "cycle" or
+    "order".
     """
 
-    def __init__(self, directory):
+    def __init__(self, directory, absent=(), compare=None):
         manifest = directory.manifest
-        dut = manifest.get("dut") or {"absent": [], "compare": "cycle"}
+        compare = compare or (manifest.get("dut") or {"compare": "cycle"})["compare"]
+        if compare not in ("cycle", "order"):
+            raise VectorsError(f"compare: {compare!r}; permitted: cycle, order")
+        by_cycle = compare == "cycle"
         pattern = {name: directory.numbers(file, 2) for name, file in manifest["stalls"]["patterns"].items()}
         self.limits, self.levels, self.constants = manifest["limits"], manifest["side_inputs"], manifest["constants"]
-        self.patterns, self.expected = pattern, manifest["expected"]
+        self.patterns = pattern
         memories = {memory["data"]: memory for memory in manifest["memories"]}
         self.sources, self.memories, self.sinks = {}, [], []
         for channel in manifest["channels"]:
             name = channel["name"]
             if channel["direction"] == "out":
-                self.sinks.append(Sink(channel, directory, pattern[name], dut["absent"]))
+                self.sinks.append(Sink(channel, directory, pattern[name], absent, by_cycle))
             elif name in memories:
                 self.memories.append(Memory(channel, memories[name], directory, pattern[name]))
             else:
                 tokens = directory.numbers(channel["tokens"])
                 self.sources[name] = Source(channel, tokens, pattern[name])
         status = manifest["status"]
-        by_cycle = dut["compare"] == "cycle"
         self.status = status["fields"] if by_cycle else []
+        missing = [field["port"] for field in self.status if field["port"] in absent]
+        if missing:
+            raise VectorsError(f"ports: {missing[0]}: absent; permitted with compare = \"order\"")
         self.during = status["during"]
         changes = zip(directory.steps(status["moved"]), directory.numbers(status["tokens"]))
         self.changes = list(changes) if by_cycle else []
         self.seen, self.status_faults, self.shown = 0, [], None
         self.cycle, self.quiet = 0, 0
+        self.expected = len(self.changes) + sum(len(sink.wanted) for sink in self.sinks)
+
+    @property
+    def outputs(self):
+        """Names of the outputs that are sampled."""
+        names = [f"{source.name}_ready" for source in [*self.sources.values(), *self.memories]]
+        for sink in self.sinks:
+            names += [f"{sink.name}_valid", *(field["port"] for field in sink.fields)]
+        return list(dict.fromkeys([*names, *(field["port"] for field in self.status)]))
 
     def drive(self):
         """The inputs of the next cycle, all of them but clock and reset."""

@@ -26,6 +26,12 @@ class Directory:
         found = (self.manifest.get("format"), self.manifest.get("format_version"))
         if found != (FORMAT, VERSION):
             raise VectorsError(f"{self.path}: format {found[0]} {found[1]}; permitted: {FORMAT} {VERSION}")
+        inside = list((self.manifest.get("dut") or {}).get("memories", {}))
+        if inside:
+            raise VectorsError(
+                f"{self.path}: the memory {inside[0]} is inside the design; permitted: memories that the bench keeps; "
+                "make icarus fills it"
+            )
         for entry in self.manifest["files"]:
             self._check(entry)
 

@@ -304,9 +304,11 @@ impl Comparison {
     fn reaching(mut self, machine: &Plan, reach: &Reach) -> Self {
         let channels = machine.channels();
         self.errors.additions = Some(reach.steps.total());
-        self.errors.z.bound_for_input = reach.bound(machine, &channels[0]);
+        let DepthAndColor { z, color, .. } = &self.errors;
+        let depth = reach.bound(machine, &channels[0]).map(|bound| bound + z.beside);
         // Under a light the gate's part comes on top of it; what is shaded has its own.
-        let color = reach.bound(machine, &channels[1]).map(|bound| bound + machine.dither_step());
+        let color = reach.bound(machine, &channels[1]).map(|bound| bound + color.beside);
+        self.errors.z.bound_for_input = depth;
         self.errors.color.bound_for_input = color.filter(|_| self.lit.is_none() && self.shaded.is_none());
         for (own, channel) in self.extra.iter_mut().zip(extra::channels(machine)) {
             own.bound_for_input = reach.bound(machine, channel);

@@ -14,6 +14,8 @@ mod tolerance;
 mod rule;
 mod edge;
 mod finding;
+#[cfg(test)]
+mod tests;
 
 pub use edge::Edge;
 pub use finding::{Cause, Finding, Judgement};

@@ -4,7 +4,9 @@
 //! give [`Report`] a field for it, and give it a place in [`Report::text`].
 
 mod drawn;
+mod profile;
 mod timing;
+mod traffic;
 
 use crate::compare::Comparison;
 use crate::occupancy::Occupancy;
@@ -17,9 +19,11 @@ use edgewalk_host::extra::{self, OwnChannel};
 use edgewalk_host::raster::{Cycles, Raster};
 use edgewalk_machine::Plan;
 use edgewalk_model::{Events, Waits};
+pub use profile::{Profiled, Ranged};
 use serde::Serialize;
 use std::fmt::Write as _;
 pub use timing::Timing;
+pub use traffic::Traffic;
 
 /// Everything that is said of a picture. [`Report::new`] knows what the picture alone tells; the other parts are filled in behind it.
 #[derive(Clone, Serialize)]
@@ -42,6 +46,9 @@ pub struct Report {
     /// Where the cycles went, where a machine drew.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub cycles: Option<Timing>,
+    /// What passed at the ports, where a machine drew; without the lights' maps.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub traffic: Option<Traffic>,
     /// How full queues and lanes were, where a model counted it.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub occupancy: Option<Occupancy>,
@@ -51,6 +58,12 @@ pub struct Report {
     /// Hazards and corners met, of those that the machine has, where a model counted them.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub corners: Option<Corners>,
+    /// Cycles over the screen and by size of triangle, datapath and memory alone, where this was asked for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub profile: Option<Profiled>,
+    /// What every number held, where this was asked for.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub ranges: Vec<Ranged>,
     /// The order in which transparent triangles were drawn.
     #[serde(skip)]
     pub order: Option<Order>,
@@ -84,9 +97,12 @@ impl Report {
             lights: Vec::new(),
             parts: None,
             cycles: None,
+            traffic: None,
             occupancy: None,
             setup: None,
             corners: picture.corners.as_ref().map(|met| Corners::of(machine, met)),
+            profile: None,
+            ranges: Vec::new(),
             order: None,
             drawn,
         };
@@ -126,10 +142,17 @@ impl Report {
         report.spent(machine, cycles, waits)
     }
 
+    /// With the megabytes a second of its traffic at a clock of so many MHz.
+    #[must_use]
+    pub fn at_clock(self, mhz: f64) -> Self {
+        Report { traffic: self.traffic.map(|traffic| traffic.at_clock(mhz)), ..self }
+    }
+
     /// With these cycles.
     fn spent(self, machine: &Plan, cycles: &Cycles, waits: Waits) -> Self {
         Report {
             cycles: Some(Timing::new(machine, cycles, waits, self.drawn.fragments)),
+            traffic: Some(Traffic::new(machine, cycles, waits)),
             occupancy: cycles.held.as_ref().map(|held| Occupancy::of(machine, cycles.total, held)),
             ..self
         }
@@ -155,8 +178,11 @@ impl Report {
             t += &shaded.line_of_light(place + 1);
         }
         t += &self.setup.as_ref().map(SetupReport::lines).unwrap_or_default();
+        t += &self.traffic.as_ref().map(Traffic::lines).unwrap_or_default();
         t += &self.cycles.as_ref().map(Timing::lines).unwrap_or_default();
         t += &self.occupancy.as_ref().map(Occupancy::lines).unwrap_or_default();
+        t += &self.profile.as_ref().map(Profiled::lines).unwrap_or_default();
+        t += &profile::table(&self.ranges);
         t
     }
 }

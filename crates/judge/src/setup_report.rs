@@ -160,7 +160,8 @@ fn pixels(machine: &Plan, walker: &mut Walker<MAX_CHANNELS>, prim: &Prim<MAX_CHA
     loop {
         let taken = walker.prim_ready(Some(prim), false);
         walker.step(Some(prim), false, false, false, events);
-        if taken {
+        // Behind a sequenced SETUP a prim stays at the port while it is walked, and is taken behind the last line.
+        if walker.running() || taken && !machine.is_sequenced() {
             break;
         }
     }

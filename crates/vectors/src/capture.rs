@@ -259,7 +259,7 @@ impl<'a> Runs<'a> {
 
 /// Longest time in which nothing may move at the ports though something will: SETUP, then lines without pixels, then a
 /// span that comes from far off the screen, to which TERM walks first; and whatever the rig makes them wait.
-fn patience(plan: &Plan, patterns: &[Pattern]) -> u64 {
+pub(crate) fn patience(plan: &Plan, patterns: &[Pattern]) -> u64 {
     let waits: u64 = patterns.iter().map(Pattern::longest_wait).sum();
     let setup = u64::from(longest_setup(plan).all());
     let span = u64::from(plan.clocks_per_pixel()) << plan.widths().column;

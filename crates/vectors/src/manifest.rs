@@ -130,6 +130,10 @@ pub struct DutInfo {
     pub ports: BTreeMap<String, Place>,
     /// Ports of the unit that the design has not, and that are not compared.
     pub absent: Vec<String>,
+    /// Memories of the unit that are inside the design, with the paths of their arrays: the bench fills them before the
+    /// first clock, with the words that `memories` tells.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub memories: BTreeMap<String, String>,
 }
 
 /// The reset of a user's design.
@@ -294,7 +298,8 @@ pub struct Channel {
     pub count: u64,
     /// First and last cycle in which one moved; null if none did.
     pub cycles: Option<[u64; 2]>,
-    /// Fewest and most cycles from the entry of a triangle to its first token here; null where that is not known.
+    /// Fewest and most cycles from the entry of a triangle to its first token here; null where that is not known, or
+    /// where tokens leave before the triangle has entered.
     pub latency: Option<[u64; 2]>,
     /// Memory file of the tokens; null where they are the words of one of `memories`.
     pub tokens: Option<String>,

@@ -221,6 +221,12 @@ fn what_is_not_as_written_is_refused() {
     let flipped = replace(&files, "wr.cyc.mem", "1\n", "2\n");
     let mut shorter = files.clone();
     shorter.iter_mut().find(|(n, _)| n == "tri.in.mem").expect("written").1.pop();
+    let length = shorter.iter().find(|(n, _)| n == "tri.in.mem").expect("written").1.len();
+    let length = format!("tri.in.mem: {length} bytes");
+    let mut value: Value = serde_json::from_slice(&files[0].1).expect("JSON");
+    value["channels"][0]["count"] = 1.into();
+    let mut fewer = files.clone();
+    fewer[0].1 = value.to_string().into_bytes();
     let mut missing = files.clone();
     missing.retain(|(n, _)| n != "tb.v");
     let cases = [
@@ -230,7 +236,8 @@ fn what_is_not_as_written_is_refused() {
         (unknown, "manifest.json: unknown field `colour`"),
         (module, "manifest.json: module \"a; b\" is no Verilog name"),
         (flipped, "wr.cyc.mem: SHA-256 "),
-        (shorter, "tri.in.mem: "),
+        (shorter, &length),
+        (fewer, "tri.in.mem line "),
         (missing, "tb.v: no such file"),
     ];
     for (files, message) in cases {

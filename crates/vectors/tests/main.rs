@@ -9,5 +9,6 @@ mod lockstep;
 mod mutants;
 mod reach;
 mod replay;
+mod rules;
 mod simulators;
 mod stimuli;

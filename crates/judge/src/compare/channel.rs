@@ -191,12 +191,13 @@ impl Errors {
     /// What was found, with the proved largest error of the output: vertex rounding, all additions, output rounding (bounds 2, 4), and
     /// the step of DITHER (bound 18), and how far polygons are from planes.
     pub fn found(self) -> ChannelError {
+        let beside = self.step + self.defect;
         ChannelError {
             bits: self.channel.bits,
-            unproved: 1.0 + self.step + self.defect,
+            beside,
             error: self.largest,
             spread: self.sums.spread(),
-            bound: self.budget.map(|budget| budget.after_rounding().to_f64() + self.step + self.defect).ok(),
+            bound: self.budget.map(|budget| budget.after_rounding().to_f64() + beside).ok(),
             no_bound: self.budget.err().map(|why| why.to_string()),
             bound_for_input: None,
             map: Vec::new(),
@@ -209,8 +210,9 @@ impl Errors {
 pub struct ChannelError {
     /// Of the output.
     bits: u32,
-    /// Where no bound is proved, more is wrong, LSB.
-    unproved: f64,
+    /// What is allowed beside the bound of vertices, additions and rounding: the step of DITHER, and how far polygons are from
+    /// planes, LSB.
+    pub(super) beside: f64,
     /// Largest error, LSB.
     pub error: f64,
     /// How the errors are spread.
@@ -233,7 +235,7 @@ impl ChannelError {
 
     /// 1 where the error exceeds its bound, or where none is proved an LSB.
     pub(super) fn beyond(&self) -> u64 {
-        beyond(self.error, self.bound_for_input.or(self.bound).unwrap_or(self.unproved))
+        beyond(self.error, self.bound_for_input.or(self.bound).unwrap_or(1.0 + self.beside))
     }
 
     fn line(&self, name: &str) -> String {

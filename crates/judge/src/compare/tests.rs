@@ -1,12 +1,13 @@
 //! The comparison is fed pictures that are wrong in one thing each.
 #![allow(clippy::unwrap_used)] // a test that unwraps nothing reports it
 
-use super::{Bands, Comparison, compare};
+use super::{Bands, Blended, Comparison, Lit, compare};
+use crate::shaded::{Looked, Shaded};
 use crate::verdict::Verdict::{self, Mismatch, Pass, Vacuous};
 use edgewalk_host::draw;
 use edgewalk_host::extra::Values;
 use edgewalk_host::raster::Raster;
-use edgewalk_machine::{Machine, Plan};
+use edgewalk_machine::{Dither, Machine, Plan, ScreenDoor};
 use edgewalk_model::Waits;
 use edgewalk_scene::{DepthFunc, Frame, Triangle, Vertex};
 
@@ -348,4 +349,44 @@ fn each_value_of_the_users_own_wrong_alone_is_a_mismatch() {
         caught += 1;
     }
     assert_eq!(caught, cases.len());
+}
+
+/// A colour that is within the bound, and that the pattern of DITHER does not make there.
+#[test]
+fn colour_off_the_pattern_alone_is_a_mismatch() {
+    let dither = Dither { bits: 5, screen_door: ScreenDoor::No };
+    let machine = Machine { dither, ..Machine::clone(&machine()) }.plan().unwrap();
+    let frame = frame(Some(DepthFunc::Less), &[(0.5, [0.5; 3])]);
+    let golden = draw::golden(&frame, &machine);
+    let mut drawn = draw::fast(&frame, &machine, Waits::Never).unwrap();
+    let c = compare(&machine, &frame, &golden, &drawn);
+    assert_eq!((c.verdict(), c.counts.off_pattern), (Pass, Some(0)));
+    // Of the neighbours 15/31 and 16/31 the other.
+    drawn.rgb[UNDER][0] = 1.0 - drawn.rgb[UNDER][0];
+    let c = compare(&machine, &frame, &golden, &drawn);
+    assert_eq!((c.verdict(), c.counts.off_pattern, c.errors.color.beyond()), (Mismatch, Some(1), 0));
+    assert_eq!(c.counts.wrong(), 1);
+}
+
+/// What the parts of a comparison found counts in its verdict, each alone.
+#[test]
+fn each_part_wrong_alone_is_a_mismatch() {
+    let frame = frame(Some(DepthFunc::Less), &[FAR_RED, NEAR_GREEN]);
+    let looked = |unexplained| Some(Looked { unexplained, ..Looked::default() });
+    let parts: [(&str, fn(&mut Comparison, u64)); 4] = [
+        ("blended", |c, beyond| c.blended = Some(Blended { beyond, ..Blended::default() })),
+        ("lit", |c, unexplained| c.lit = Some(Lit { unexplained, ..Lit::default() })),
+        ("shaded", |c, beyond| c.shaded = Some(Shaded { beyond, ..Shaded::default() })),
+        ("texels", |_, _| ()),
+    ];
+    for (part, put) in parts {
+        for (wrong, verdict) in [(0, Pass), (1, Mismatch)] {
+            let mut c = after(&frame, |_| ());
+            put(&mut c, wrong);
+            if part == "texels" {
+                c.shaded = Some(Shaded { texels: looked(wrong), ..Shaded::default() });
+            }
+            assert_eq!(c.verdict(), verdict, "{part}");
+        }
+    }
 }

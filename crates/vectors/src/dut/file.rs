@@ -43,6 +43,8 @@ pub struct Dut {
     pub ports: BTreeMap<String, String>,
     /// Ports outside channels that the design has not.
     pub absent: Vec<String>,
+    /// Memories that the design has inside, each with the path of its array below the top module.
+    pub memories: BTreeMap<String, String>,
 }
 
 /// A reset.
@@ -145,6 +147,7 @@ impl Dut {
         let inputs = whole.table("in")?.map(channels).transpose()?.unwrap_or_default();
         let outputs = whole.table("out")?.map(channels).transpose()?.unwrap_or_default();
         let (ports, absent) = whole.table("ports")?.map(ports).transpose()?.unwrap_or_default();
+        let memories = whole.table("memories")?.map(memories).transpose()?.unwrap_or_default();
         whole.finish()?;
         Ok(Dut {
             file: file.to_owned(),
@@ -163,6 +166,7 @@ impl Dut {
             outputs,
             ports,
             absent,
+            memories,
         })
     }
 }
@@ -221,6 +225,22 @@ fn parameters(section: Section) -> Result<Vec<(String, String)>, DutError> {
         Ok((name, text))
     };
     section.values().map(value).collect()
+}
+
+/// Paths of arrays, as `u_store.words`.
+fn memories(section: Section) -> Result<BTreeMap<String, String>, DutError> {
+    let path = |(name, value): (&String, &Value)| {
+        let plain = |part: &str| identifier(&section, name, part).is_ok();
+        match value.as_str().filter(|path| path.split('.').all(plain)) {
+            Some(path) => Ok((name.clone(), path.to_owned())),
+            None => Err(section.error(
+                name,
+                shown(value),
+                "names of Verilog with points between, as \"u_store.words\"",
+            )),
+        }
+    };
+    section.values().map(path).collect()
 }
 
 fn tie(section: Section) -> Result<Vec<(String, u64)>, DutError> {

@@ -8,7 +8,7 @@ use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
 /// Verilog of a module with the top module's name and ports, which holds ours of the unit. What the unit asks for and the
-/// user's design has not is 0, a ready 1.
+/// user's design has not is 0, a ready 1. No memory of the unit is inside the user's design.
 #[must_use]
 pub fn stand_in(interface: &Interface, wiring: &Wiring, found: &BTreeMap<String, Found>) -> String {
     let dut = &wiring.dut;
@@ -63,7 +63,7 @@ struct Inside<'a> {
 impl Inside<'_> {
     fn link(&mut self, link: &Link, ends: &Ends) {
         let (name, input) = (link.name, link.direction == Direction::In);
-        self.ports.push(format!("{name}_valid({})", ends.valid));
+        self.ports.push(format!("{name}_valid({})", ends.valid.as_deref().unwrap_or_default()));
         self.ports.push(match (&ends.ready, input) {
             (Some(ready), _) => format!("{name}_ready({ready})"),
             (None, true) => format!("{name}_ready()"),

@@ -3,7 +3,9 @@
 use super::error::DutError;
 use super::file::{Channel, Compare, Dut, Widths};
 use super::ports::Found;
-use edgewalk_lockstep::{Direction, Interface, Link, Port};
+use crate::capture::{LinkTrace, Trace};
+use edgewalk_lockstep::{Direction, Interface, Link, Memory, Port};
+use std::borrow::Cow;
 use std::collections::BTreeMap;
 
 /// What stands for a port of the unit.
@@ -36,8 +38,8 @@ pub struct Packed {
 /// The ports of a channel.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Ends {
-    /// The port of valid.
-    pub valid: String,
+    /// The port of valid; `None`: the memory behind the channel is inside the design, which has no port for it.
+    pub valid: Option<String>,
     /// The port of ready; `None`: there is none, and the taker takes every token at once.
     pub ready: Option<String>,
     /// For each field its port.
@@ -65,6 +67,28 @@ pub struct Wiring {
 }
 
 impl Wiring {
+    /// What a bench has to compare of a trace.
+    #[must_use]
+    pub fn expected(&self, trace: &Trace) -> u64 {
+        let trace = self.outside(trace);
+        match self.dut.compare {
+            Compare::Order => trace.tokens_out(),
+            Compare::Cycle => trace.expected(),
+        }
+    }
+
+    /// The trace without what moves at channels that the design has inside.
+    #[must_use]
+    pub(crate) fn outside<'a>(&self, trace: &'a Trace) -> Cow<'a, Trace> {
+        if self.links.iter().all(|ends| ends.valid.is_some()) {
+            return Cow::Borrowed(trace);
+        }
+        let mut outside = trace.clone();
+        let inside = outside.links.iter_mut().zip(&self.links).filter(|(_, ends)| ends.valid.is_none());
+        inside.for_each(|(moved, _)| *moved = LinkTrace::default());
+        Cow::Owned(outside)
+    }
+
     /// What the design gives to nobody: fields without a port, and all status ports where only the order counts.
     #[must_use]
     pub fn not_compared(&self) -> &[String] {
@@ -88,6 +112,7 @@ impl Dut {
         check.port("reset.port", &self.reset.port, 1, true, "the reset")?;
         check.channels(interface, Direction::In)?;
         check.channels(interface, Direction::Out)?;
+        check.memories(interface)?;
         check.other_ports(interface)?;
         let mut links = Vec::new();
         for link in &interface.links {
@@ -190,10 +215,44 @@ impl Check<'_> {
         Ok(())
     }
 
+    /// `[memories]` names memories of the unit.
+    fn memories(&self, interface: &Interface) -> Result<(), DutError> {
+        let names: Vec<&str> = interface.memories.iter().map(|memory| memory.name).collect();
+        match self.dut.memories.keys().find(|name| !names.contains(&name.as_str())) {
+            None => Ok(()),
+            Some(name) => {
+                let found = format!("{} has no memory {name}", interface.unit.name());
+                Err(DutError::unknown(&self.dut.file, format!("memories.{name}"), found, name, names))
+            }
+        }
+    }
+
+    /// Whether the design has this memory inside.
+    fn has(&self, memory: &Memory) -> bool {
+        self.dut.memories.contains_key(memory.name)
+    }
+
     fn link(&mut self, interface: &Interface, link: &Link) -> Result<Ends, DutError> {
         let table = table(link);
         let input = link.direction == Direction::In;
         let given = if input { &self.dut.inputs } else { &self.dut.outputs };
+        let of_it = |memory: &&Memory| {
+            [memory.read, memory.data].iter().any(|place| interface.links[*place].name == link.name)
+        };
+        if let Some(memory) = interface.memories.iter().find(of_it).filter(|memory| self.has(memory)) {
+            return match given.get(link.name) {
+                None => Ok(Ends {
+                    valid: None,
+                    ready: None,
+                    fields: vec![Wire::Absent; link.fields.len()],
+                    packed: None,
+                }),
+                Some(_) => {
+                    let found = format!("a channel of the memory {}, which is inside", memory.name);
+                    Err(self.error(table, found, "channels of other memories"))
+                }
+            };
+        }
         let given = given.get(link.name).cloned().unwrap_or_default();
         let prefix = given.prefix.clone().unwrap_or_else(|| format!("{}_", link.name));
         let names: Vec<&str> = link.fields.iter().map(|port| field_name(link, port)).collect();
@@ -232,7 +291,7 @@ impl Check<'_> {
             return Err(self.error(format!("{table}.absent"), found, "one field or more that is compared"));
         }
         let packed = self.packed(&given, link, &names, &fields, &table)?;
-        Ok(Ends { valid, ready, fields, packed })
+        Ok(Ends { valid: Some(valid), ready, fields, packed })
     }
 
     /// What the table names are fields of the channel.
@@ -269,7 +328,8 @@ impl Check<'_> {
         table: &str,
     ) -> Result<(), DutError> {
         let of = |place: usize, field: usize| &interface.links[place].fields[field].name;
-        let needs = interface.memories.iter().flat_map(|memory| {
+        let kept = interface.memories.iter().filter(|memory| !self.has(memory));
+        let needs = kept.flat_map(|memory| {
             let write = memory.write.iter().flat_map(move |write| {
                 [Some(write.address), Some(write.word), write.enable]
                     .into_iter()

@@ -11,6 +11,7 @@ pub use synthesis::{Cells, synth_ice40};
 use crate::manifest::Manifest;
 use crate::read::{ReadError, read};
 use edgewalk_tool::{first_lines, run};
+use std::collections::BTreeMap;
 use std::path::Path;
 use std::process::Command;
 use std::time::Duration;
@@ -42,6 +43,8 @@ pub enum Outcome {
     Pass {
         /// Tokens and status changes compared.
         checked: u64,
+        /// How often the run met the events that the bench of a user's design counts.
+        met: BTreeMap<String, u64>,
     },
     /// Something differs, is missing, or is too much.
     Mismatch {
@@ -163,12 +166,19 @@ fn verdict(manifest: &Manifest, text: &str) -> Option<Outcome> {
     let vacuous = checked == 0 || text.lines().any(|line| line == "FAIL: nothing was compared");
     Some(match (vacuous, passed) {
         (true, _) => Outcome::Vacuous,
-        (false, true) => Outcome::Pass { checked },
+        (false, true) => Outcome::Pass { checked, met: met(text) },
         (false, false) => {
-            let told = text.lines().filter(|line| !line.starts_with("cycles ") && !line.starts_with("- "));
+            let beside = ["cycles ", "met ", "- "];
+            let told = text.lines().filter(|line| !beside.iter().any(|word| line.starts_with(word)));
             Outcome::Mismatch { checked, expected: manifest.expected, lines: first_lines(told) }
         }
     })
+}
+
+/// Lines `met EVENT COUNT`.
+fn met(text: &str) -> BTreeMap<String, u64> {
+    let counts = text.lines().filter_map(|line| line.strip_prefix("met ")?.split_once(' '));
+    counts.filter_map(|(event, count)| Some((event.to_owned(), count.trim().parse().ok()?))).collect()
 }
 
 #[cfg(test)]
@@ -187,7 +197,9 @@ mod tests {
         let manifest: Manifest = serde_json::from_slice(&files[0].1).expect("a manifest");
         let manifest = Manifest { expected: 7, ..manifest };
         let judged = |text: &str| verdict(&manifest, text);
-        assert_eq!(judged("wrong 0\nchecked 7 / 7\nPASS\n"), Some(Outcome::Pass { checked: 7 }));
+        let met = BTreeMap::from([("memory_stall".to_owned(), 12)]);
+        let passed = "met memory_stall 12\nwrong 0\nchecked 7 / 7\nPASS\n";
+        assert_eq!(judged(passed), Some(Outcome::Pass { checked: 7, met }));
         let mismatch = |checked| Some((checked, 7));
         for (text, wanted) in [
             ("checked 7 / 7\nFAIL\n", mismatch(7)),

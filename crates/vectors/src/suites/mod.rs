@@ -19,6 +19,7 @@ mod corners;
 mod dither;
 mod functions;
 mod hazards;
+pub mod input;
 mod light;
 mod lines;
 mod own_map;

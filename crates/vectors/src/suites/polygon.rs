@@ -99,6 +99,23 @@ pub(super) fn corners(machine: &Plan) -> Vec<Case> {
             "put_in_order",
             [as_role(low, Role::Edges(Sides::ALL)), as_role(triangle, Role::Plane(Sides::ALL))],
         ),
+        // The second token's upper edges begin before the first one's, the lower edge behind them.
+        case("an_edge_before_those_loaded", {
+            let early = pen.shaded([(1.0, 3.0), (4.0, 3.5), (2.0, 9.0)], [0.3; 3]);
+            let tall = pen.shaded([(2.0, 1.0), (8.0, 6.0), (1.0, 9.0)], [0.5; 3]);
+            [as_role(early, Role::Edges(Sides::ALL)), as_role(tall, Role::Plane(Sides::ALL))]
+        }),
+        // Four pixels right of two others on one line, left of the screen on the next.
+        case("order_reversed_beside_the_screen", {
+            let upright = vec![(1.0, 1.0), (3.0, 1.0), (3.0, 8.0), (1.0, 8.0)];
+            of(&[upright, vec![(12.0, 3.2), (-14.0, 5.2), (12.0, 7.0)]])
+        }),
+        case("a_long_way_down", of(&[square(1.0, 1.0, 2.0), square(6.0, h - 3.0, 2.0)])),
+        // Without lines a triangle.
+        case("a_line_behind_edges", {
+            let line = machine.line([triangle[0], triangle[2]]);
+            [as_role(low, Role::Edges(Sides::ALL)), machine.with_window(line, Window::default())]
+        }),
         case("sides_that_do_not_count", {
             let some = |sides| Role::Edges(Sides::new(sides));
             [

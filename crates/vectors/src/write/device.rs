@@ -1,7 +1,7 @@
 //! The part of `tb.v` that is the design: our own with the unit's ports, or a user's with ports of other names.
 
 use crate::dut::{Compare, Ends, Wire, Wiring};
-use edgewalk_lockstep::{Direction, Interface, Link, Port};
+use edgewalk_lockstep::{Direction, Interface, Link, Memory, Port};
 use std::fmt::Write as _;
 
 /// What the bench writes for a design.
@@ -106,6 +106,11 @@ pub fn own(interface: &Interface, wiring: &Wiring) -> Device {
     for (port, wire) in interface.levels.iter().zip(&wiring.levels) {
         own.input(port, wire, &port.name);
     }
+    for memory in &interface.memories {
+        if let Some(path) = dut.memories.get(memory.name) {
+            own.text += &filled(memory, path);
+        }
+    }
     own.ports.extend(dut.tie.iter().map(|(name, value)| format!("{name}({value})")));
     let connected = own.ports.len();
     let mut status_widths = Vec::new();
@@ -131,6 +136,29 @@ pub fn own(interface: &Interface, wiring: &Wiring) -> Device {
     }
 }
 
+/// The first words of a memory inside the design. The design may fill it at time 0 too: the bench comes later.
+fn filled(memory: &Memory, path: &str) -> String {
+    let start = if memory.write.is_none() { START } else { "" };
+    FILL.replace("{start}", start)
+        .replace("{last}", &((1u64 << memory.address_bits) - 1).to_string())
+        .replace("{path}", path)
+        .replace("{memory}", memory.name)
+        .replace("{MEMORY}", &memory.name.to_uppercase())
+}
+
+const FILL: &str = r#"
+    // The memory {memory} is inside the design.
+    integer {memory}_word;
+    initial begin
+        #1;
+        for ({memory}_word = 0; {memory}_word <= {last}; {memory}_word = {memory}_word + 1)
+            dut.{path}[{memory}_word] = {MEMORY}_CLEAR;
+{start}    end
+"#;
+
+const START: &str = r#"        if ({MEMORY}_START > 0) $readmemh("{memory}.start.mem", dut.{path}, 0, {MEMORY}_START - 1);
+"#;
+
 /// The instance of a user's design as it grows.
 struct Own {
     text: String,
@@ -143,7 +171,14 @@ struct Own {
 impl Own {
     fn link(&mut self, link: &Link, ends: &Ends) {
         let name = link.name;
-        self.connect(&ends.valid, 1, &format!("{name}_valid"));
+        match (&ends.valid, link.direction) {
+            (Some(valid), _) => self.connect(valid, 1, &format!("{name}_valid")),
+            (None, Direction::Out) => {
+                let _ =
+                    writeln!(self.text, "    assign {name}_valid = 1'b0; // its memory is inside the design");
+            }
+            (None, Direction::In) => {}
+        }
         match (&ends.ready, link.direction) {
             (Some(ready), _) => self.connect(ready, 1, &format!("{name}_ready")),
             (None, Direction::In) => {

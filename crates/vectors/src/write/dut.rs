@@ -34,6 +34,7 @@ pub fn info(interface: &Interface, wiring: &Wiring) -> DutInfo {
         tie: dut.tie.iter().cloned().collect(),
         ports: places.ports,
         absent: places.absent,
+        memories: dut.memories.clone(),
     }
 }
 
@@ -54,7 +55,10 @@ struct Places {
 impl Places {
     fn link(&mut self, link: &Link, ends: &Ends) {
         let one = |port: &String| Place { port: port.clone(), lsb: 0, width: 1 };
-        self.ports.insert(format!("{}_valid", link.name), one(&ends.valid));
+        match &ends.valid {
+            Some(valid) => _ = self.ports.insert(format!("{}_valid", link.name), one(valid)),
+            None => self.absent.push(format!("{}_valid", link.name)),
+        }
         match &ends.ready {
             Some(ready) => _ = self.ports.insert(format!("{}_ready", link.name), one(ready)),
             None => self.absent.push(format!("{}_ready", link.name)),

@@ -1,9 +1,12 @@
 //! `filelist.f` and `Makefile`: run from inside the directory, no path leaves it.
 
+use super::rules;
 use crate::dut::{Compare, Dut};
 
 /// The design that a directory is for.
 pub struct Sources<'a> {
+    /// The unit's module, by which the rules are named.
+    pub module: &'a str,
     /// The top module.
     pub top: &'a str,
     /// The design's files.
@@ -24,7 +27,7 @@ impl Sources<'_> {
     }
 
     /// The files of the test bench, itself last.
-    fn bench(&self) -> Vec<&'static str> {
+    pub(super) fn bench(&self) -> Vec<&'static str> {
         let own = self.dut.map(|_| super::testbench::OWN_MODULE.0);
         super::testbench::MODULES.into_iter().map(|(name, _)| name).chain(own).chain(["tb.v"]).collect()
     }
@@ -43,8 +46,11 @@ impl Sources<'_> {
             .replace("{choice}", choice)
             .replace("{defines}", defines)
             .replace("{standard}", self.dut.map_or("2001", Dut::standard))
-            .replace("{include}", &self.dut.map(include).unwrap_or_default())
-            .replace("{parameters}", &self.dut.map(parameters).unwrap_or_default())
+            .replace("{include}", &listed(self.dut.map(include), |option| format!(" {option}")))
+            .replace(
+                "{parameters}",
+                &listed(self.dut.map(parameters), |option| format!(" '{}'", option.replace('$', "$$"))),
+            )
             .replace(
                 "{how}",
                 match self.dut.map(|dut| dut.compare) {
@@ -52,20 +58,29 @@ impl Sources<'_> {
                     _ => "order, values, cycles and status ports count",
                 },
             )
+            .replace("{rules}", RULES)
+            .replace("{rules_top}", &format!("{}_rules", self.module))
+            .replace("{modules}", rules::MODULES)
+            .replace("{outside}", rules::OUTSIDE)
+            .replace("{bind}", rules::BIND)
             .replace("{top}", self.top)
             .replace("{hdl}", &self.hdl.join(" "))
             .replace("{bench}", &self.bench().join(" "))
     }
 }
 
-/// Folders for include lines, as options of both simulators.
-fn include(dut: &Dut) -> String {
-    dut.include.iter().map(|folder| format!(" -I{}", folder.display())).collect()
+fn listed(options: Option<Vec<String>>, written: impl Fn(&String) -> String) -> String {
+    options.iter().flatten().map(written).collect()
 }
 
-/// Parameters of the top module, for Verilator's lint.
-fn parameters(dut: &Dut) -> String {
-    dut.parameters.iter().map(|(name, value)| format!(" '-G{name}={}'", value.replace('$', "$$"))).collect()
+/// Folders for include lines, as options of both simulators.
+pub(super) fn include(dut: &Dut) -> Vec<String> {
+    dut.include.iter().map(|folder| format!("-I{}", folder.display())).collect()
+}
+
+/// Parameters of the top module, as options of Verilator's lint.
+pub(super) fn parameters(dut: &Dut) -> Vec<String> {
+    dut.parameters.iter().map(|(name, value)| format!("-G{name}={value}")).collect()
 }
 
 /// The head of a Makefile for our own design.
@@ -85,17 +100,31 @@ endif
 DEFINES = $(if $(filter 0,$(CHECK_CYCLES)),-DORDER_ONLY)
 ";
 
-const MAKEFILE: &str = r#"# Targets: icarus, verilator, lint, clean. Each run fails unless the test bench prints PASS.
+/// Whether the rules of the channels look at the design.
+const RULES: &str = r"
+ifeq ($(filter 0 1,$(RULES)),)
+$(error RULES=$(RULES): 0 or 1)
+endif
+OUTSIDE = $(if $(filter 1,$(RULES)),-s {rules_top} {modules} {outside})
+BIND = $(if $(filter 1,$(RULES)),{modules} {bind})
+";
+
+const MAKEFILE: &str = r#"# Targets: icarus, verilator, lint, cocotb, clean. Each run fails unless the test bench prints PASS.
+#   make icarus RULES=1                the rules of rules.v look at the design too: a broken one fails
+#   make cocotb PYTHON=venv/bin/python SIMULATOR=verilator   a Python that has the package edgewalk_vectors and cocotb
 {head}HDL = {hdl}
 BENCH = {bench}
-{timing}SHA256SUM = sha256sum
-{choice}
+{timing}RULES = 0
+SHA256SUM = sha256sum
+PYTHON = python3
+SIMULATOR = icarus
+{choice}{rules}
 # $(call needs,PROGRAM,HOW TO GET IT)
 needs = @command -v $(firstword $(1)) >/dev/null || { echo "$(firstword $(1)) is not installed; $(2)" >&2; exit 3; }
 # $(call judge,LOG): shows what a run printed, as far as anybody reads it; the verdict is in the file.
-judge = @cat $(1) || :; grep -qx PASS $(1)
+judge = @cat $(1) || :; grep -qx PASS $(1) && ! grep -q "^rule broken:" $(1)
 
-.PHONY: all check icarus verilator lint clean
+.PHONY: all check icarus verilator lint cocotb clean
 all: icarus verilator lint
 
 # What the bench reads is what was written.
@@ -107,7 +136,7 @@ check:
 icarus: check
 	$(call needs,iverilog,try: {iverilog})
 	$(call needs,vvp,try: {iverilog})
-	@iverilog -g{standard} {defines}-I.{include} -o tb.vvp -s tb $(HDL) $(BENCH)
+	@iverilog -g{standard} {defines}-I.{include} -o tb.vvp -s tb $(OUTSIDE) $(HDL) $(BENCH)
 	@vvp -n tb.vvp >icarus.log 2>&1 || :
 	$(call judge,icarus.log)
 
@@ -115,11 +144,17 @@ icarus: check
 # where they count.
 verilator: check
 	$(call needs,verilator,try: {verilator})
-	@verilator --binary --timing -O3 -Wno-fatal --timescale 1ns/1ps {defines}--top-module tb{include} $(HDL) $(BENCH) >build.log 2>&1 \
+	@verilator --binary --timing -O3 -Wno-fatal --timescale 1ns/1ps {defines}--top-module tb{include} $(HDL) $(BENCH) $(BIND) >build.log 2>&1 \
 		|| { cat build.log >&2; exit 1; }
 	@grep "^%" build.log >&2 || :
 	@./obj_dir/Vtb >verilator.log 2>&1 || :
 	$(call judge,verilator.log)
+
+cocotb:
+	$(call needs,$(PYTHON),name another one: make PYTHON=venv/bin/python)
+	@$(PYTHON) -c "import edgewalk_vectors" 2>/dev/null \
+		|| { echo "$(PYTHON) has no package edgewalk_vectors; try: pip install ./python, in the repository of edgewalk" >&2; exit 3; }
+	@$(PYTHON) -m edgewalk_vectors "$(CURDIR)" --simulator $(SIMULATOR)
 
 lint:
 	$(call needs,verilator,try: {verilator})

@@ -11,17 +11,21 @@
 //!  <channel>.willing.mem                    when the bench offers and takes
 //!  *.csv                                    all of this as tables for people, unless left out
 //!  params.vh  cases.vh  tb.v  bench_*.v     the test bench
+//!  rules.v  rules_bind.sv  rules_icarus.v   what holds on each channel, to be bound to the design in any test bench
 //!  hdl/*.v  filelist.f  Makefile            the design, and how to run it
+//!  edgewalk.core                            the same for FuseSoC
 //!  SHA256SUMS                               of what the bench reads; `make` looks at it first
 //! ```
 
 mod describe;
+pub mod core;
 mod device;
 mod dut;
 mod faults;
 mod makefile;
 pub mod mem;
 mod params;
+mod rules;
 mod table;
 mod testbench;
 
@@ -32,6 +36,7 @@ use crate::dut::Wiring;
 use crate::manifest;
 use crate::suites::Suite;
 use edgewalk_lockstep::{Direction, Interface, Pattern, Port, status_ports};
+use std::borrow::Cow;
 
 /// Files to be written: name relative to the directory, contents.
 pub type Files = Vec<(String, Vec<u8>)>;
@@ -67,7 +72,11 @@ pub fn directory_for(suite: &Suite, trace: &Trace, wiring: &Wiring, tables: Tabl
 }
 
 fn all(suite: &Suite, trace: &Trace, design: Design, tables: Tables) -> Files {
-    let interface = &trace.interface;
+    let trace = match design {
+        Design::Ours(_) => Cow::Borrowed(trace),
+        Design::Own(wiring) => wiring.outside(trace),
+    };
+    let (trace, interface) = (&*trace, &trace.interface);
     let (ours, wiring) = match design {
         Design::Ours(files) => (files, None),
         Design::Own(wiring) => (&[][..], Some(wiring)),
@@ -108,6 +117,8 @@ fn all(suite: &Suite, trace: &Trace, design: Design, tables: Tables) -> Files {
     add("params.vh".to_owned(), format!("{stamp}\n{}", params::params(trace, wiring)));
     add("cases.vh".to_owned(), format!("{stamp}\n{}", faults::cases(suite)));
     // All that the bench reads is there.
+    let data =
+        files.iter().map(|(name, _)| name).filter(|name| name.ends_with(".mem")).cloned().collect::<Vec<_>>();
     let sums = sums(&files);
     let mut add = |name: String, text: String| files.push((name, text));
     add("SHA256SUMS".to_owned(), sums);
@@ -116,11 +127,11 @@ fn all(suite: &Suite, trace: &Trace, design: Design, tables: Tables) -> Files {
     let sources = match wiring {
         None => {
             let hdl = ours.iter().map(|(name, _)| format!("hdl/{name}")).collect();
-            makefile::Sources { top: &module, hdl, dut: None }
+            makefile::Sources { module: &module, top: &module, hdl, dut: None }
         }
         Some(Wiring { dut, .. }) => {
             let hdl = dut.files.iter().map(|file| file.display().to_string()).collect();
-            makefile::Sources { top: &dut.top, hdl, dut: Some(dut) }
+            makefile::Sources { module: &module, top: &dut.top, hdl, dut: Some(dut) }
         }
     };
     for (name, text) in ours {
@@ -129,9 +140,17 @@ fn all(suite: &Suite, trace: &Trace, design: Design, tables: Tables) -> Files {
     for (name, text) in testbench::MODULES.into_iter().chain(wiring.map(|_| testbench::OWN_MODULE)) {
         add(name.to_owned(), format!("{stamp}\n{text}"));
     }
-    add("tb.v".to_owned(), format!("{stamp}\n{}", testbench::testbench(interface, &with_triangles, wiring)));
+    add(
+        "tb.v".to_owned(),
+        format!("{stamp}\n{}", testbench::testbench(&trace.plan, interface, &with_triangles, wiring)),
+    );
+    for (name, text) in rules::files(interface, wiring) {
+        add(name.to_owned(), format!("{stamp}\n{text}"));
+    }
     add("filelist.f".to_owned(), stamp + &sources.filelist());
     add("Makefile".to_owned(), trace.plan.stamp("#") + &sources.makefile());
+    let name = format!("{}_{}", suite.name, interface.unit.name());
+    add("edgewalk.core".to_owned(), core::of_vectors(&trace.plan.stamp("#"), &name, &sources, &data));
     add(manifest::SCHEMA_FILE.to_owned(), manifest::SCHEMA.to_owned());
 
     let mut files: Files = files.into_iter().map(|(name, text)| (name, text.into_bytes())).collect();

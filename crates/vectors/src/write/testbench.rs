@@ -3,7 +3,9 @@
 use super::device::{self, Device};
 use super::faults;
 use crate::dut::Wiring;
+use crate::seen::{Sight, sights};
 use edgewalk_lockstep::{Direction, Interface, Link, Memory, Port, StatusPort, status_ports};
+use edgewalk_machine::Plan;
 use std::fmt::Write as _;
 
 /// The modules that every test bench uses, file name and text.
@@ -21,7 +23,7 @@ pub const OWN_MODULE: (&str, &str) = ("bench_hold.v", include_str!("../../bench/
 /// The test bench of a unit, or of the design that is wired to its ports; `known` are the channels out whose tokens have a
 /// file of triangles.
 #[must_use]
-pub fn testbench(interface: &Interface, known: &[&str], wiring: Option<&Wiring>) -> String {
+pub fn testbench(plan: &Plan, interface: &Interface, known: &[&str], wiring: Option<&Wiring>) -> String {
     let device = wiring.map_or_else(|| device::reference(interface), |wiring| device::own(interface, wiring));
     let mut text = header(&device);
     for channel in &interface.links {
@@ -43,7 +45,34 @@ pub fn testbench(interface: &Interface, known: &[&str], wiring: Option<&Wiring>)
     text.push_str(&status_section(interface, &super::status_fields(interface)));
     text.push_str(&levels_section(interface));
     text.push_str(&device.instance);
-    text.push_str(&end_section(interface, &device));
+    let counted = wiring.map(|wiring| counted(plan, interface, wiring)).unwrap_or_default();
+    text.push_str(&events_section(&counted));
+    text.push_str(&end_section(interface, &device, &counted));
+    text
+}
+
+/// The events that the ports of a user's design show in single cycles, with the condition for each.
+fn counted(plan: &Plan, interface: &Interface, wiring: &Wiring) -> Vec<(&'static str, String)> {
+    let events = interface.unit.events(plan).into_iter().map(|event| event.name);
+    let seen = sights(interface, wiring, events).into_iter();
+    let counted = seen.filter_map(|(event, sight)| match sight {
+        Sight::Cycles(condition) => Some((event, condition)),
+        Sight::Tokens | Sight::Hidden(_) => None,
+    });
+    counted.collect()
+}
+
+fn events_section(counted: &[(&str, String)]) -> String {
+    let mut text = String::new();
+    if !counted.is_empty() {
+        text.push_str("\n    // Events that the ports show.\n");
+    }
+    for (event, condition) in counted {
+        let _ = writeln!(
+            text,
+            "    reg  [31:0] met_{event} = 0;\n    always @(posedge clk) if (!rst && ({condition})) met_{event} <= met_{event} + 1;"
+        );
+    }
     text
 }
 
@@ -235,7 +264,7 @@ fn range(field: &Port) -> String {
     if field.width() == 1 { String::new() } else { format!("[{}:0] ", field.width() - 1) }
 }
 
-fn end_section(interface: &Interface, device: &Device) -> String {
+fn end_section(interface: &Interface, device: &Device, counted: &[(&str, String)]) -> String {
     let out: Vec<&str> = interface.links_of(Direction::Out).map(|link| link.name).collect();
     let sum =
         |suffix: &str| out.iter().map(|name| format!("{name}_{suffix}")).collect::<Vec<_>>().join(" + ");
@@ -248,6 +277,8 @@ fn end_section(interface: &Interface, device: &Device) -> String {
             (name.to_uppercase(), if *name == "status" { "CHECK_CYCLES != 0 && " } else { "" });
         let _ = writeln!(missing, "        if ({condition}{name}_checked != {upper}_COUNT) {name}_missing;");
     }
+    let met =
+        counted.iter().map(|(event, _)| format!("        $display(\"met {event} %0d\", met_{event});\n"));
     let wrong = [vec![sum("wrong")], device.wrong.clone()].concat().join(" + ");
     END.replace("{ports}", &port_widths(device))
         .replace("{checked}", &sum("checked"))
@@ -255,6 +286,7 @@ fn end_section(interface: &Interface, device: &Device) -> String {
         .replace("{counts}", &counts)
         .replace("{fires}", &fires.join(" || "))
         .replace("{missing}", &missing)
+        .replace("{met}", &met.collect::<String>())
 }
 
 /// The check that every port of the design has the width of its values: a simulator would only cut them, and warn.
@@ -309,7 +341,7 @@ const END: &str = r#"
 {ports}
     task finish_run; begin
 {missing}        if (cycle == CYCLE_LIMIT) $display("still busy after %0d cycles", cycle);
-        $display("cycles %0d", cycle - quiet);
+{met}        $display("cycles %0d", cycle - quiet);
         $display("wrong %0d", wrong);
         $display("checked %0d / %0d", checked, EXPECTED);
         if (TOKENS == 0) $display("FAIL: nothing was compared");

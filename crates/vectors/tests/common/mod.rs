@@ -5,8 +5,8 @@ use edgewalk_lockstep::{Agreement, Interface, LockstepError, NetlistDevice, Port
 use edgewalk_machine::units;
 use edgewalk_machine::{
     Blend, BlendKind, Bump, Dither, EdgeKind, Fill, Gate, Hazard, Kind, Lines, Machine, OwnPass, Plan,
-    Precision, Project, ScreenDoor, Shade, ShadeColour, ShadeKind, ShadeLight, Shadow, ShadowLight, Texture,
-    Transmits, Walk,
+    Precision, Project, ScreenDoor, SetupKind, Shade, ShadeColour, ShadeKind, ShadeLight, Shadow,
+    ShadowLight, Texture, Transmits, Values, Walk,
 };
 use edgewalk_netlist::Netlist;
 use edgewalk_vectors::{Files, Trace, Unit};
@@ -63,7 +63,7 @@ impl<'a> Natives<'a> {
 pub fn made(folder: &Path, arguments: &[&str]) -> (bool, String) {
     let mut make = Command::new("make");
     // What a surrounding make or the user's shell says to make is none of this one's business.
-    for name in ["MAKEFLAGS", "MAKELEVEL", "MFLAGS", "HDL", "CHECK_CYCLES", "SHA256SUM"] {
+    for name in ["MAKEFLAGS", "MAKELEVEL", "MFLAGS", "HDL", "CHECK_CYCLES", "RULES", "SHA256SUM"] {
         make.env_remove(name);
     }
     // The C++ that Verilator writes runs for a moment only: to optimise it takes longer.
@@ -137,7 +137,7 @@ pub fn lined() -> Vec<(&'static str, Plan)> {
         .into()
 }
 
-/// The same machines with POLY in EDGE's place, but for the one that blends without lines.
+/// The same machines with POLY in EDGE's place, but for the one that blends without lines; and one with bilinear colours.
 pub fn polygonal() -> Vec<(&'static str, Plan)> {
     let with_poly = |(name, machine): (&'static str, Plan)| {
         let mut machine = Machine::clone(&machine);
@@ -147,27 +147,35 @@ pub fn polygonal() -> Vec<(&'static str, Plan)> {
         }
         (name, checked(machine))
     };
-    lined().into_iter().map(with_poly).collect()
+    let mut machines: Vec<_> = lined().into_iter().map(with_poly).collect();
+    let (_, slopes) =
+        machines.iter().find(|(name, _)| *name == "high_slopes_tags").expect("one of the three");
+    let mut bilinear = Machine::clone(slopes);
+    bilinear.polygon.values = Values::Bilinear;
+    machines.push(("high_bilinear", checked(bilinear)));
+    machines
 }
 
 /// Twelve machines with their names: adders, segments, lanes, radices, word lengths, fills, edges, hazard policies, and in
-/// two of them channels of the user's own, more than their adders or lanes divide.
+/// two of them channels of the user's own, more than their adders or lanes divide. Four have a sequenced SETUP, of 1, 2 and
+/// 4 lanes, one of them in four rounds of channels.
 pub fn twelve() -> Vec<(&'static str, Plan)> {
     let s = Machine::clone(&small());
     let textbook = Machine { subpixel_bits: 0, fill: Fill::Textbook, guard_bits: 6, ..s.clone() };
+    let sequenced = Machine { setup_kind: SetupKind::Sequenced, ..s.clone() };
     let list = vec![
         ("small", s.clone()),
         ("two_adders_drain", Machine { adders: 2, hazard: Hazard::Drain, lanes: 2, ..s.clone() }),
+        ("two_segments", Machine { segments: 2, latency: 1, inflight: 1, lanes: 4, ..sequenced.clone() }),
         ("one_adder_interlock", Machine { adders: 1, hazard: Hazard::Interlock, lanes: 4, ..s.clone() }),
-        ("two_segments", Machine { segments: 2, latency: 1, inflight: 1, ..s.clone() }),
         (
             "two_adders_of_two_segments_three_extras",
             with_extras(
-                Machine { adders: 2, segments: 2, inflight: 7, latency: 5, lanes: 2, ..s.clone() },
+                Machine { adders: 2, segments: 2, inflight: 7, latency: 5, lanes: 2, ..sequenced.clone() },
                 [(Kind::Floor, 5), (Kind::Unorm, 3), (Kind::Signed, 7)],
             ),
         ),
-        ("one_adder_of_four_segments", Machine { adders: 1, segments: 4, span_fifo: 1, ..s.clone() }),
+        ("one_adder_of_four_segments", Machine { adders: 1, segments: 4, span_fifo: 1, ..sequenced.clone() }),
         (
             "four_segments_interlock",
             Machine { segments: 4, hazard: Hazard::Interlock, latency: 3, ..s.clone() },
@@ -202,7 +210,7 @@ pub fn twelve() -> Vec<(&'static str, Plan)> {
                 inflight: 1,
                 latency: 1,
                 tag_bits: 3,
-                ..s.clone()
+                ..sequenced
             },
         ),
         (

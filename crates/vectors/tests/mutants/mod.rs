@@ -6,9 +6,6 @@
 //! The test run takes every sixteenth fault. All of them:
 //! `cargo test --release -p edgewalk-vectors mutants:: -- --ignored --nocapture`
 
-mod cut;
-mod miter;
-mod proof;
 mod setup;
 mod shaded;
 mod traces;
@@ -20,8 +17,8 @@ use edgewalk_machine::{
 };
 use edgewalk_netlist::Module;
 use edgewalk_netlist::mutate::mutants;
+use edgewalk_vectors::prove::{Proof, prove};
 use edgewalk_vectors::{Interface, Unit, design};
-use proof::{Proof, prove};
 use traces::traces;
 
 /// Of so many faults the test run tries one; of SETUP, which is slow to run, of so many.
@@ -91,7 +88,7 @@ fn no_fault_that_is_seen_is_proved_equivalent() {
         let device = common::native(&mutant.apply(&netlist), &interface).expect("the same ports");
         if traces.iter().any(|trace| trace.lockstep_of(&mut device.clone()).is_err()) {
             seen += 1;
-            let proof = prove(&interface, &netlist, mutant, true);
+            let proof = prove(&interface, &netlist, mutant, true).expect("Yosys is installed");
             assert_ne!(proof, Proof::Equivalent, "{}: {}", mutant.module, mutant.description);
         }
     }
@@ -116,7 +113,8 @@ fn a_bit_of_a_rom_that_nobody_sees_is_equivalent() {
     let interface = Interface::new(&machine_for(common::SPAN), common::SPAN);
     let mut equivalent = Vec::new();
     for mutant in mutants(&netlist).iter().filter(|mutant| mutant.description.starts_with("bit ")) {
-        if prove(&interface, &netlist, mutant, false) == Proof::Equivalent {
+        let proof = prove(&interface, &netlist, mutant, false).expect("Yosys is installed");
+        if proof == Proof::Equivalent {
             equivalent.push(mutant.description.clone());
         }
     }
@@ -343,7 +341,8 @@ fn tally(machine: &Plan, unit: Unit, first: usize, step: usize) -> Tally {
             tally.killed += 1;
             continue;
         }
-        let verdict = match prove(&interface, &netlist, mutant, unit != common::SETUP) {
+        let proof = prove(&interface, &netlist, mutant, unit != common::SETUP).expect("Yosys is installed");
+        let verdict = match proof {
             Proof::Equivalent => {
                 tally.equivalent += 1;
                 "equivalent (proved by pdr)"

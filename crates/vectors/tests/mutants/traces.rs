@@ -81,14 +81,16 @@ pub fn traces(machine: &Plan, unit: Unit) -> Vec<Trace> {
                 .extend([setup::specks(machine), far, setup::halves(machine), steep].into_iter().chain(cut));
         }
         "poly" => {
-            let names = ["polygon", "polygon_corners"];
+            // A line before and behind polygons: what is held of one must not be the other's.
+            let lines = machine.polygon.has_lines().then_some("lines");
+            let names = ["polygon", "polygon_corners"].into_iter().chain(lines).chain(["polygon"]);
             let suites = names.map(|name| Suite::named(machine, name, 1, 24).expect("listed"));
             let suite = Suite::joined("polygons", "every shape and corner", suites);
             traces.truncate(1);
             for stalls in StallKind::ALL {
                 traces.push(capture(machine, unit, &suite, suite.state, stalls));
             }
-            let cut = [97, 230].map(|each| setup::cut_often(&traces[1], each));
+            let cut = [23, 97, 230].map(|each| setup::cut_often(&traces[1], each));
             traces.extend(cut);
         }
         "pixel" => {

@@ -1,9 +1,8 @@
 //! Two designs under the same inputs, and whether a port that counts differs, as Verilog.
 
-use edgewalk_lockstep::{Direction, Link, Port, status_ports};
+use edgewalk_lockstep::{Direction, Interface, Link, Port, status_ports};
 use edgewalk_netlist::Netlist;
 use edgewalk_netlist::mutate::DIFFERS;
-use edgewalk_vectors::Interface;
 use std::fmt::Write as _;
 
 /// The input of a lane of SETUP that says that a result is given out, and its register in the miter.
@@ -21,7 +20,7 @@ pub struct Ports {
 }
 
 impl Ports {
-    /// Those of a module: every output counts in every cycle.
+    /// Ports of a module: every output counts in every cycle.
     pub fn of_module(module: &Netlist) -> Ports {
         let inputs = module.inputs.iter().map(|input| (input.name.clone(), module.width(input.node)));
         let outputs = module.outputs.iter().map(|output| (output.name.clone(), module.width(output.driver)));
@@ -33,8 +32,8 @@ impl Ports {
         }
     }
 
-    /// Those of a module that goes on from clock to clock: every output counts, but for the value that a lane of SETUP gives out. It
-    /// counts a clock after `give`, as that is when SETUP takes it; what it takes of a first value before, it takes again then.
+    /// Ports of a module that goes on from clock to clock: every output counts. The value that a lane of SETUP gives out
+    /// counts a clock after `give`, when SETUP takes it: a first value that SETUP takes before, SETUP takes again then.
     pub fn of_running_module(module: &Netlist) -> Ports {
         let mut ports = Ports::of_module(module);
         if gives_out(module) {
@@ -44,7 +43,7 @@ impl Ports {
         ports
     }
 
-    /// Those of a unit: outputs count as in lock step.
+    /// Ports of a unit: outputs count as in lock step.
     pub fn of_unit(interface: &Interface) -> Ports {
         let status = status_ports(interface).into_iter();
         let status = status.map(|status| (status.port.name, status.during.map(str::to_owned)));

@@ -1,0 +1,21 @@
+//! The exception of the module, and the way to it from errors and panics.
+
+use pyo3::exceptions::PyValueError;
+use pyo3::prelude::*;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+
+pyo3::create_exception!(edgewalk, Error, PyValueError, "What the program would say and end with.");
+
+/// The exception with the whole message.
+pub fn raised(error: &anyhow::Error) -> PyErr {
+    Error::new_err(format!("{error:#}"))
+}
+
+/// Does the work without Python's lock; errors become exceptions, and so does a panic, which would be a defect.
+pub fn run<T: Send>(py: Python<'_>, work: impl FnOnce() -> anyhow::Result<T> + Send) -> PyResult<T> {
+    // What `work` borrows is read only, and what it owned is gone.
+    match py.detach(|| catch_unwind(AssertUnwindSafe(work))) {
+        Ok(done) => done.map_err(|error| raised(&error)),
+        Err(_) => Err(Error::new_err("a defect of edgewalk; permitted: none; report it with the input")),
+    }
+}

@@ -1,0 +1,141 @@
+//! `Live` in Python: a unit of the model beside somebody's simulation.
+
+use crate::error::Error;
+use crate::machine::{Machine, on_screen};
+use crate::token::{bits, dictionary, read};
+use crate::vectors::unit;
+use edgewalk_lockstep::{Direction, Interface};
+use edgewalk_machine::Unknown;
+use edgewalk_vectors::live::{self, StartWords};
+use pyo3::prelude::*;
+use pyo3::types::{PyDict, PyList};
+use std::collections::BTreeMap;
+
+/// A unit of the model that is fed token by token.
+///
+/// It belongs to the thread that made it, as a simulation does.
+#[pyclass(module = "edgewalk", unsendable)]
+pub struct Live(live::Live);
+
+#[pymethods]
+impl Live {
+    #[new]
+    #[pyo3(signature = (unit, machine = None, *, constants = None, memories = None, clear = None))]
+    fn new(
+        unit: &str,
+        machine: Option<&Machine>,
+        constants: Option<&Bound<'_, PyDict>>,
+        memories: Option<&Bound<'_, PyDict>>,
+        clear: Option<&Bound<'_, PyDict>>,
+    ) -> PyResult<Self> {
+        let machine = on_screen(machine, None)?;
+        let unit = self::unit(&machine, unit)?;
+        let interface = Interface::new(&machine, unit);
+        let constants = self::constants(&interface, constants)?;
+        let constants: Vec<(&str, u128)> =
+            constants.iter().map(|(name, value)| (name.as_str(), *value)).collect();
+        let memories = start(&interface, memories, clear)?;
+        let made = live::Live::new(&machine, unit, &constants, &memories);
+        made.map(Live).map_err(|error| Error::new_err(error.to_string()))
+    }
+
+    /// Name of the link whose tokens are given.
+    #[getter]
+    fn takes(&self) -> &'static str {
+        self.0.takes().name
+    }
+
+    /// Names of the links whose tokens come.
+    #[getter]
+    fn gives(&self) -> Vec<&'static str> {
+        self.0.interface().links_of(Direction::Out).map(|link| link.name).collect()
+    }
+
+    /// For each link its ports: name, bits, whether it is signed.
+    #[getter]
+    fn ports<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let dict = PyDict::new(py);
+        for link in &self.0.interface().links {
+            let ports = link.fields.iter().map(|port| (&port.name, port.width(), port.is_signed()));
+            dict.set_item(link.name, PyList::new(py, ports)?)?;
+        }
+        Ok(dict)
+    }
+
+    /// Gives the unit a token, as it stood at its ports.
+    fn give(&mut self, token: &Bound<'_, PyDict>) -> PyResult<()> {
+        let token = read(self.0.takes(), token)?;
+        self.0.give(&token);
+        Ok(())
+    }
+
+    /// The next token of a link out; None if what was given makes no more.
+    fn next<'py>(&mut self, py: Python<'py>, link: &str) -> PyResult<Option<Bound<'py, PyDict>>> {
+        let links = &self.0.interface().links;
+        let place = links.iter().position(|known| known.name == link && known.direction == Direction::Out);
+        let place =
+            place.ok_or_else(|| Error::new_err(Unknown::new("link", link, self.gives()).to_string()))?;
+        let Some(token) = self.0.next(place) else { return Ok(None) };
+        dictionary(py, &self.0.interface().links[place], &token).map(Some)
+    }
+
+    /// For each link out: the number of tokens left over.
+    fn rest<'py>(&mut self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let dict = PyDict::new(py);
+        for (link, count) in self.0.rest() {
+            dict.set_item(link, count)?;
+        }
+        Ok(dict)
+    }
+
+    fn __repr__(&self) -> String {
+        format!("<edgewalk.Live {}>", self.0.interface().unit.name())
+    }
+}
+
+/// Constants of the unit by name.
+fn constants(interface: &Interface, given: Option<&Bound<'_, PyDict>>) -> PyResult<Vec<(String, u128)>> {
+    let of = |(name, value): (Bound<'_, PyAny>, Bound<'_, PyAny>)| {
+        let name = name.str()?.to_string();
+        let port = interface.constants.iter().find(|port| port.name == name);
+        let port = port.ok_or_else(|| {
+            let names = interface.constants.iter().map(|port| port.name.as_str());
+            Error::new_err(Unknown::new("constant", &name, names).to_string())
+        })?;
+        let value = bits(&name, port.width(), port.is_signed(), &value)?;
+        Ok((name, value))
+    };
+    given.into_iter().flatten().map(of).collect()
+}
+
+/// The memories that are named, as they are at the start.
+fn start(
+    interface: &Interface,
+    words: Option<&Bound<'_, PyDict>>,
+    clear: Option<&Bound<'_, PyDict>>,
+) -> PyResult<BTreeMap<String, StartWords>> {
+    let mut all: BTreeMap<String, StartWords> = BTreeMap::new();
+    for (is_clear, given) in [(false, words), (true, clear)] {
+        for (name, value) in given.into_iter().flatten() {
+            let name = name.str()?.to_string();
+            let memory = interface.memories.iter().find(|memory| memory.name == name).ok_or_else(|| {
+                let names = interface.memories.iter().map(|memory| memory.name);
+                Error::new_err(Unknown::new("memory", &name, names).to_string())
+            })?;
+            let word =
+                |value: &Bound<'_, PyAny>| bits(&format!("memory {name}"), memory.word_bits, false, value);
+            let none = StartWords { first: Vec::new().into(), clear: None };
+            let start = all.entry(name.clone()).or_insert(none);
+            if is_clear {
+                start.clear = Some(word(&value)?);
+                continue;
+            }
+            start.first = value.try_iter()?.map(|value| word(&value?)).collect::<PyResult<_>>()?;
+            if start.first.len() as u128 > 1 << memory.address_bits {
+                let (found, permitted) = (start.first.len(), 1u128 << memory.address_bits);
+                return Err(Error::new_err(format!("memory {name}: {found} words; permitted: {permitted}")));
+            }
+        }
+    }
+    Ok(all)
+}

@@ -1,0 +1,45 @@
+//! What is to be drawn: an array of triangles, or a triangle file.
+
+use crate::array::floats;
+use crate::error::raised;
+use crate::machine::{Machine, on_screen};
+use edgewalk_host::input::fitting;
+use edgewalk_machine::Plan;
+use edgewalk_scene::Frame;
+use edgewalk_scene::triangle_file::{parse, read};
+use pyo3::prelude::*;
+use std::fmt::Write as _;
+use std::path::PathBuf;
+
+/// Values of a vertex: x, y in pixels, z, r, g, b and kt in 0 to 1.
+const VERTEX: usize = 7;
+
+/// The frame, and the machine with its screen. `header` is more lines before the triangles of an array.
+pub fn frame(
+    triangles: &Bound<'_, PyAny>,
+    machine: Option<&Machine>,
+    header: &str,
+) -> PyResult<(Plan, Frame)> {
+    let (name, plan, frame) = if let Ok(path) = triangles.extract::<PathBuf>() {
+        let frame = read(&path).map_err(|error| raised(&error.into()))?;
+        (path.display().to_string(), on_screen(machine, Some((frame.width, frame.height)))?, frame)
+    } else {
+        let values = floats("triangles", triangles, &[3, VERTEX])?;
+        let plan = on_screen(machine, None)?;
+        // A file's reader checks the values, so that there is one place for limits and their messages.
+        let mut text = format!("size {} {}\n{header}\n", plan.width, plan.height);
+        for triangle in values.chunks_exact(3 * VERTEX) {
+            text.push('T');
+            for value in triangle {
+                // Writing into a String does not fail.
+                let _ = write!(text, " {value}");
+            }
+            text.push('\n');
+        }
+        let name = "triangles".to_owned();
+        let frame = parse(&name, text.as_bytes()).map_err(|error| raised(&error.into()))?;
+        (name, plan, frame)
+    };
+    let frame = fitting(&name, frame, &plan).map_err(|error| raised(&error))?;
+    Ok((plan, frame))
+}
