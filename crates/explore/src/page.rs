@@ -14,7 +14,7 @@ use crate::sweep::table::Table;
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
 use serde_json::Value;
-pub use still::rule;
+pub use still::{rule, ruled_out};
 
 const PAGE: &str = include_str!("page/page.html");
 const STYLE: &str = include_str!("page/page.css");
@@ -67,7 +67,8 @@ fn title(table: &Table) -> String {
 }
 
 /// Text in HTML.
-fn escaped(text: &str) -> String {
+#[must_use]
+pub fn escaped(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }
 

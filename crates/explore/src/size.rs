@@ -91,7 +91,9 @@ pub fn size(machine: &Plan, port: &PortFrame, error: f64) -> Result<Size> {
     let reach = reached(machine, port)?
         .ok_or_else(|| anyhow!("no triangle covers a pixel of the screen: nothing to size; check the input, screen.width and screen.height"))?;
     let guard_bits = GuardBits { machine: machine.guard_bits, needed: needed_guard_bits(machine, port) };
-    let fewest = Screen { guard_columns: (1 << guard_bits.needed) - 1, ..machine.screen() };
+    // POLY moves from one pixel of the screen to another.
+    let guard_columns = if machine.polygon.is_there() { 0 } else { (1 << guard_bits.needed) - 1 };
+    let fewest = Screen { guard_columns, ..machine.screen() };
     // What is made of the values on their way to memory changes nothing of their words.
     let machine = &plain(machine)?;
     // Red, green and blue are of one format.
@@ -188,6 +190,12 @@ fn least(machine: &Plan, channel: &Channel, steps: Steps, error: f64) -> Result<
     if machine.fill == Fill::Textbook {
         return Err(
             "with edge.fill = textbook outputs wrap outside the triangle, whatever its bits".to_owned()
+        );
+    }
+    if machine.polygon.is_bilinear() && ["r", "g", "b"].contains(&channel.name) {
+        return Err(
+            "the bound of bilinear colours follows the edges of a frame; ask with polygon.values = plane"
+                .to_owned(),
         );
     }
     // What is left for the additions.

@@ -24,7 +24,7 @@
 //! let (rows, rest) = Store::open(&path)?;
 //! let points: Vec<_> = sweep.points.iter().collect();
 //! let todo = missing(&sweep, &points, &store::by_key(rest), &[]);
-//! run(&sweep, &todo, &Around { store: &rows, cost: None, done: &|| {} })?;
+//! run(&sweep, &todo, &Around { store: &rows, cost: None, estimate: None, done: &|| {} })?;
 //!
 //! let rows = store::by_key(store::read(&path)?);
 //! let table = Table::new(&sweep, &rows);
@@ -41,6 +41,7 @@ pub mod shading;
 pub mod subject;
 pub mod objective;
 pub mod judge;
+pub mod require;
 pub mod point;
 pub mod grid;
 pub mod equation;
@@ -52,6 +53,7 @@ pub mod check;
 pub mod evaluate;
 pub mod front;
 pub mod table;
+pub mod search;
 pub mod csv;
 
 pub use definition::{Definition, Sample};
@@ -60,4 +62,6 @@ pub use grid::Sweep;
 pub use judge::Judge;
 pub use objective::Objective;
 pub use point::Point;
+pub use require::Requirement;
+pub use search::Hunt;
 pub use store::Store;

@@ -29,6 +29,8 @@ pub struct Flow<'f> {
     pub limit: Duration,
     /// Seeds of nextpnr.
     pub seeds: &'f [u32],
+    /// Count cells by unit too: a second synthesis.
+    pub by_unit: bool,
     /// Told of each finished step.
     pub done: &'f (dyn Fn() + Sync),
 }
@@ -104,7 +106,7 @@ impl Job<'_> {
 
     /// The cells of each unit, with nothing optimised over the borders of modules.
     fn units(&self) -> Result<Vec<UnitCells>, Stop> {
-        if self.design.units.is_empty() {
+        if self.design.units.is_empty() || !self.flow.by_unit {
             (self.flow.done)();
             return Ok(Vec::new());
         }

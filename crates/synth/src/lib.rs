@@ -31,13 +31,14 @@ mod timing;
 mod cache;
 mod flow;
 mod report;
+pub mod estimate;
 mod standard_cells;
 
 pub use cache::Cache;
 pub use cells::Cells;
 pub use design::Design;
 pub use flow::Flow;
-pub use memories::{Block, Blocks, Memory};
+pub use memories::{Block, Blocks, Memory, memories};
 pub use packed::Packed;
 pub use part::{Part, UnknownPart};
 pub use report::{Mhz, Outcome, Seed, UnitCells};

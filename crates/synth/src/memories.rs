@@ -60,7 +60,8 @@ pub struct Blocks {
 }
 
 /// The memories of a part of the machine, each held by no blocks yet.
-pub(crate) fn memories(plan: &Plan, part: Part) -> Vec<Memory> {
+#[must_use]
+pub fn memories(plan: &Plan, part: Part) -> Vec<Memory> {
     let ports = part.ports(plan);
     let mut list: Vec<Memory> = ports.memory.iter().map(|port| read(plan, port)).collect();
     // Without BLEND nothing reads the colours, so no port for reads is declared.

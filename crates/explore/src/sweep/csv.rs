@@ -5,9 +5,27 @@ use super::table::Table;
 use serde_json::Value;
 use std::fmt::Write as _;
 
-/// All rows with a header, in the order of the points.
+/// All rows with a header, in the order of the points; the last column is the front of the row's machine.
 #[must_use]
 pub fn csv(table: &Table) -> String {
+    let columns = columns(table);
+    let fronts = table.front_of();
+    let mut csv = String::new();
+    let header: Vec<&str> = columns.iter().map(|(name, _)| name.as_str()).chain(["front"]).collect();
+    // Writing to a string cannot fail.
+    _ = writeln!(csv, "{}", header.join(","));
+    for row in &table.rows {
+        let mut line: Vec<String> = columns.iter().map(|(_, pointer)| field(row.pointer(pointer))).collect();
+        let front = row["key"].as_str().and_then(|key| fronts.get(key));
+        line.push(front.map_or_else(String::new, ToString::to_string));
+        _ = writeln!(csv, "{}", line.join(","));
+    }
+    csv
+}
+
+/// The columns: names, and where a row has them.
+#[must_use]
+pub fn columns(table: &Table) -> Vec<(String, String)> {
     let mut columns: Vec<(String, String)> = [
         "key",
         "status",
@@ -33,18 +51,7 @@ pub fn csv(table: &Table) -> String {
     }
     columns.extend(names.into_iter().map(|name| (name.to_owned(), format!("/keys/{name}"))));
     columns.extend(figures());
-    let fronts = table.front_of();
-    let mut csv = String::new();
-    let header: Vec<&str> = columns.iter().map(|(name, _)| name.as_str()).chain(["front"]).collect();
-    // Writing to a string cannot fail.
-    _ = writeln!(csv, "{}", header.join(","));
-    for row in &table.rows {
-        let mut line: Vec<String> = columns.iter().map(|(_, pointer)| field(row.pointer(pointer))).collect();
-        let front = row["key"].as_str().and_then(|key| fronts.get(key));
-        line.push(front.map_or_else(String::new, ToString::to_string));
-        _ = writeln!(csv, "{}", line.join(","));
-    }
-    csv
+    columns
 }
 
 /// Columns of figures, and where a row has them.
@@ -94,6 +101,13 @@ pub fn figures() -> Vec<(String, String)> {
     }
     for figure in ["median", "min", "max"] {
         columns.push((format!("mhz_{figure}"), format!("/synth/mhz/{figure}")));
+    }
+    for figure in ["est_lut4", "est_cells", "est_mhz"] {
+        columns.push((figure.to_owned(), format!("/estimate/{figure}/value")));
+        columns.push((format!("{figure}_error"), format!("/estimate/{figure}/error")));
+    }
+    for figure in ["est_carry", "est_ff", "est_ram"] {
+        columns.push((figure.to_owned(), format!("/estimate/{figure}")));
     }
     columns.push(("synth_reasons".to_owned(), "/synth/reasons".to_owned()));
     for figure in [

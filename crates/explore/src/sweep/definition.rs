@@ -26,10 +26,18 @@ pub struct Definition {
     pub stalls: Vec<String>,
     /// How several memories count together, as `--judge` has it.
     pub judge: String,
-    /// So many of the points, by seed.
+    /// So many of the machines, by seed.
     pub sample: Option<Sample>,
+    /// So many machines of a search through a space that is not run whole, by seed.
+    pub search: Option<Sample>,
     /// Points without a proved bound of at most so many LSB are not simulated.
     pub bound: Option<f64>,
+    /// What a machine must keep, as `--require` has it.
+    pub require: Vec<String>,
+    /// Devices that a machine must fit by its estimate.
+    pub fits: Vec<String>,
+    /// Every row has the estimate of its machine.
+    pub estimate: bool,
     /// What is best, by name.
     pub objectives: Vec<String>,
     /// Synthesis of every machine.
@@ -42,7 +50,7 @@ impl Definition {
     /// Name of the format.
     pub const FORMAT: &str = "edgewalk-sweep-definition";
     /// Version of the definition's format.
-    pub const FORMAT_VERSION: [u32; 2] = [1, 0];
+    pub const FORMAT_VERSION: [u32; 2] = [1, 2];
 }
 
 /// The default machine on no input yet: a starting point.
@@ -59,7 +67,11 @@ impl Default for Definition {
             stalls: Vec::new(),
             judge: Judge::WORST.to_owned(),
             sample: None,
+            search: None,
             bound: None,
+            require: Vec::new(),
+            fits: Vec::new(),
+            estimate: false,
             objectives: Vec::new(),
             synth: None,
             chunks: None,
@@ -67,7 +79,7 @@ impl Default for Definition {
     }
 }
 
-/// Some of the points.
+/// Some of the machines.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Sample {
     /// How many.

@@ -1,6 +1,6 @@
 //! How far a picture is from the shading equation at each pixel, which is the same for every way of shading.
 
-use edgewalk_golden::Shading;
+use edgewalk_golden::{Rays, Shading, Visibility};
 use edgewalk_host::input::Input;
 use edgewalk_host::raster::{Raster, golden_fill};
 use edgewalk_machine::Plan;
@@ -42,6 +42,16 @@ impl Equation {
         let (scene, surface) = input.surface(machine)?;
         // Which triangle a pixel shows is the same in all of golden's ways of shading.
         let shaded = edgewalk_golden::shade(scene, &surface, Shading::Gouraud, golden_fill(machine));
+        Some(Equation { shown: shaded.picture.id.iter().map(|id| *id >= 0).collect(), rgb: shaded.truth })
+    }
+
+    /// With the shadows that rays find; none of a triangle file.
+    #[must_use]
+    pub fn with_shadows(input: &Input, machine: &Plan) -> Option<Equation> {
+        let (scene, surface) = input.surface(machine)?;
+        let rays = Visibility::Rays(Rays::new(&scene.mesh));
+        let shaded =
+            edgewalk_golden::render(scene, &surface, Shading::Gouraud, golden_fill(machine), &rays).shaded;
         Some(Equation { shown: shaded.picture.id.iter().map(|id| *id >= 0).collect(), rgb: shaded.truth })
     }
 

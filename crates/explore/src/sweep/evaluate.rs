@@ -21,6 +21,8 @@ pub struct Around<'a> {
     pub store: &'a Store,
     /// Synthesises a machine.
     pub cost: Option<&'a (dyn Fn(&Plan) -> Cost + Sync)>,
+    /// Estimates a machine.
+    pub estimate: Option<&'a (dyn Fn(&Plan) -> Value + Sync)>,
     /// Told of each finished row.
     pub done: &'a (dyn Fn() + Sync),
 }
@@ -30,10 +32,11 @@ pub struct Around<'a> {
 /// # Errors
 /// A row that cannot be written; those before it are kept.
 pub fn run(sweep: &Sweep, points: &[&Point], around: &Around) -> Result<()> {
-    let run = Run { sweep, around };
+    let run = Run { sweep, around, estimates: estimates(points, around) };
     let mut geometries: BTreeMap<([usize; 2], Vec<u32>), Vec<Planned>> = BTreeMap::new();
     for point in points {
         match &point.plan {
+            Ok(_) if run.ruled_out(point)? => {}
             Ok(plan) => {
                 let key = ([point.input, point.way], geometry_key(&point.machine));
                 geometries.entry(key).or_default().push((*point, plan));
@@ -45,9 +48,19 @@ pub fn run(sweep: &Sweep, points: &[&Point], around: &Around) -> Result<()> {
     geometries.values().try_for_each(|points| run.within_memory(points))
 }
 
+/// The estimate of each machine of these points, by the machine's hash: a triangle file may bring another screen.
+fn estimates(points: &[&Point], around: &Around) -> BTreeMap<String, Value> {
+    let Some(estimate) = around.estimate else { return BTreeMap::new() };
+    let machines: BTreeMap<String, &Plan> =
+        points.iter().filter_map(|point| Some((point.machine.hash(), point.plan.as_ref().ok()?))).collect();
+    machines.into_par_iter().map(|(hash, plan)| (hash, estimate(plan))).collect()
+}
+
 struct Run<'r> {
     sweep: &'r Sweep,
     around: &'r Around<'r>,
+    /// By the machine's hash.
+    estimates: BTreeMap<String, Value>,
 }
 
 /// A point with its machine.
@@ -60,6 +73,29 @@ impl Run<'_> {
         self.around.store.append(&row)?;
         (self.around.done)();
         Ok(())
+    }
+
+    fn estimate(&self, point: &Point) -> Option<Value> {
+        self.estimates.get(&point.machine.hash()).cloned()
+    }
+
+    /// Writes the row of a point whose estimate breaks a requirement. Whether it does.
+    fn ruled_out(&self, point: &Point) -> Result<bool> {
+        let Some(estimate) = self.estimate(point) else { return Ok(false) };
+        let mut row = json!({ "estimate": estimate });
+        let Some(broken) = self.sweep.requirements.iter().find(|of| of.rules_out_early(&row)) else {
+            return Ok(false);
+        };
+        let estimate = row["estimate"].take();
+        let mut row = without_figures(
+            self.sweep,
+            point,
+            Status::Pruned,
+            &format!("required: {broken}: by the estimate"),
+        );
+        row["estimate"] = estimate;
+        self.put(row, Instant::now())?;
+        Ok(true)
     }
 
     fn all(&self, points: &Points, status: Status, reason: &str) -> Result<()> {
@@ -148,9 +184,8 @@ impl Run<'_> {
             points.par_iter().try_for_each(|(point, plan)| {
                 let since = Instant::now();
                 let report = pixels.timed(plan, &setup, self.sweep.memories[point.memory].waits)?;
-                let cost = self.around.cost.map(|cost| cost(plan));
-                let found = Found { report, equation: pixels.distance(), cost };
-                self.put(with_figures(self.sweep, point, plan, found)?, since)
+                let found = Found { report, equation: pixels.distance(), estimate: self.estimate(point) };
+                self.put(with_figures(self.sweep, point, plan, found, self.around.cost)?, since)
             })
         })
     }
@@ -162,8 +197,8 @@ impl Run<'_> {
         let since = Instant::now();
         let row = match apart::report(geometry, plan, self.sweep.memories[point.memory].waits) {
             Ok((report, equation)) => {
-                let cost = self.around.cost.map(|cost| cost(plan));
-                with_figures(self.sweep, point, plan, Found { report, equation, cost })?
+                let found = Found { report, equation, estimate: self.estimate(point) };
+                with_figures(self.sweep, point, plan, found, self.around.cost)?
             }
             Err(why) => without_figures(self.sweep, point, Status::Failed, &format!("{why:#}")),
         };
@@ -171,8 +206,8 @@ impl Run<'_> {
     }
 }
 
-/// Of these points those that have no row, one that is to be tried again, or one without the distance from the shading equation
-/// that this sweep asks for.
+/// Of these points those that have no row, one that is to be tried again, or one without the distance from the shading
+/// equation or the estimate that this sweep asks for.
 #[must_use]
 pub fn missing<'p>(
     sweep: &Sweep,
@@ -186,6 +221,7 @@ pub fn missing<'p>(
         let asked = sweep.asks_equation() && sweep.drawn(point).shading.is_some();
         again.iter().any(|again| status == Some(*again))
             || asked && status == Some(Status::Ok) && row["equation"].is_null()
+            || sweep.asks_estimate() && status == Some(Status::Ok) && row["estimate"].is_null()
     };
     points.iter().filter(wanted).copied().collect()
 }

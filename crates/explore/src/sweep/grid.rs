@@ -5,6 +5,8 @@ use super::definition::{Definition, Sample, Synthesis};
 use super::judge::{Judge, Memory};
 use super::objective::Objective;
 use super::point::{Identity, Point};
+use super::require::Requirement;
+use super::search::Round;
 use super::shading;
 use super::subject::{Subject, Way};
 use anyhow::{Result, anyhow};
@@ -33,10 +35,18 @@ pub struct Sweep {
     pub judge: Judge,
     /// What is best.
     pub objectives: Vec<Objective>,
-    /// How many machines there are.
+    /// What a machine must keep.
+    pub requirements: Vec<Requirement>,
+    /// How many machines all values of the keys make.
+    pub whole: u64,
+    /// How many machines there are points of.
     pub machines: usize,
     /// In their order: by machines, then memories, then inputs.
     pub points: Vec<Point>,
+    /// Rounds of a search that have begun.
+    pub rounds: Vec<Round>,
+    /// The machine that the keys are varied in.
+    base: Machine,
 }
 
 impl Sweep {
@@ -62,24 +72,55 @@ impl Sweep {
         let shadings = shadings(&definition, &base, &axes)?;
         let synth = definition.synth.is_some();
         let objectives = Objective::list(&definition.objectives, synth, shadings.len() > 1)?;
+        let requirements = Requirement::list(
+            &definition.require,
+            &definition.fits,
+            definition.synth.as_ref().map(|of| of.target.as_str()),
+        )?;
         let whole = axes.iter().map(|axis| axis.values.len() as u64).fold(1, u64::saturating_mul);
         let rows = definition.inputs.len() * memories.len();
-        let chosen = chosen(whole, definition.sample, rows as u64)?;
+        let chosen = match definition.search {
+            Some(_) => {
+                check_search(&definition, whole, rows as u64)?;
+                Vec::new()
+            }
+            None => chosen(whole, definition.sample, rows as u64)?,
+        };
         check_chunks(definition.chunks, chosen.len() * rows)?;
         let inputs = inputs(&definition.inputs, &shadings)?;
-        let machines = chosen.len();
-        let mut sweep =
-            Sweep { definition, axes, inputs, memories, judge, objectives, machines, points: Vec::new() };
-        for (number, index) in chosen.into_iter().enumerate() {
-            let machine = sweep.machine(&base, index);
-            for memory in 0..sweep.memories.len() {
-                for input in 0..sweep.inputs.len() {
-                    let point = sweep.point(machine.clone(), [number, memory, input]);
-                    sweep.points.push(point);
-                }
+        let mut sweep = Sweep {
+            definition,
+            axes,
+            inputs,
+            memories,
+            judge,
+            objectives,
+            requirements,
+            whole,
+            machines: 0,
+            points: Vec::new(),
+            rounds: Vec::new(),
+            base,
+        };
+        chosen.into_iter().for_each(|index| sweep.add(index));
+        Ok(sweep)
+    }
+
+    /// Adds the points of a machine.
+    pub(super) fn add(&mut self, index: u64) {
+        let machine = self.machine(&self.base, index);
+        for memory in 0..self.memories.len() {
+            for input in 0..self.inputs.len() {
+                let point = self.point(machine.clone(), [self.machines, memory, input]);
+                self.points.push(point);
             }
         }
-        Ok(sweep)
+        self.machines += 1;
+    }
+
+    /// The place of a point among the points.
+    pub(super) fn place(&self, machine: usize, memory: usize, input: usize) -> usize {
+        (machine * self.memories.len() + memory) * self.inputs.len() + input
     }
 
     /// The machine with this index among all combinations: the last key changes fastest.
@@ -116,6 +157,7 @@ impl Sweep {
             version: self.definition.program.clone(),
             synth: self.synth_identity(),
             bound: self.definition.bound.map(|bound| bound.to_string()).unwrap_or_default(),
+            require: self.require_identity(),
         };
         let plan = machine.plan().map_err(|e| e.to_string());
         Point { key: identity.key(), number, memory, input, way, machine, plan }
@@ -137,6 +179,20 @@ impl Sweep {
     #[must_use]
     pub fn asks_equation(&self) -> bool {
         self.objectives.iter().any(Objective::is_of_equation)
+    }
+
+    /// Whether rows tell the estimate of their machines.
+    #[must_use]
+    pub fn asks_estimate(&self) -> bool {
+        self.definition.estimate
+            || self.objectives.iter().any(|objective| objective.estimate)
+            || self.requirements.iter().any(Requirement::is_of_estimate)
+    }
+
+    /// What a machine must keep, in words; empty if nothing.
+    #[must_use]
+    pub fn require_identity(&self) -> String {
+        self.requirements.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ")
     }
 
     /// How machines are synthesised, in words; empty if they are not.
@@ -165,6 +221,37 @@ fn check_seeds(synth: Option<&Synthesis>) -> Result<()> {
     }
 }
 
+fn check_search(of: &Definition, whole: u64, rows: u64) -> Result<()> {
+    /// Fewest machines of a search: two for each of the parts that its first half and its steps are.
+    const LEAST: u32 = 32;
+    let Some(Sample { points, .. }) = of.search else { return Ok(()) };
+    let says = |why: String| Err(anyhow!("--search {points}: {why}"));
+    if of.synth.is_some() {
+        return says(
+            "nothing is built in a search; limit the estimate by --require, then build the best".to_owned(),
+        );
+    }
+    if of.chunks.is_some() {
+        return says("a search is not cut into parts; leave --chunks out".to_owned());
+    }
+    if of.sample.is_some() {
+        return says("a search takes no sample; leave --sample out".to_owned());
+    }
+    if whole > u64::MAX / 2 {
+        return says("more than 2^63 machines: permitted: fewer; vary fewer keys".to_owned());
+    }
+    if u64::from(points) >= whole {
+        return says(format!("there are {whole} machines; leave --search out, and all of them are run"));
+    }
+    if points < LEAST || u64::from(points) * rows > MAX_POINTS {
+        return says(format!(
+            "permitted: {LEAST} to {} machines with {rows} points each",
+            MAX_POINTS / rows.max(1)
+        ));
+    }
+    Ok(())
+}
+
 fn check_chunks(chunks: Option<u32>, points: usize) -> Result<()> {
     match chunks {
         Some(chunks) if chunks == 0 || chunks as usize > points => {
@@ -182,7 +269,7 @@ fn chosen(whole: u64, sample: Option<Sample>, rows: u64) -> Result<Vec<u64>> {
     }
     if count.saturating_mul(rows) > MAX_POINTS {
         return Err(anyhow!(
-            "{count} machines with {rows} points each: permitted: {MAX_POINTS} points in all; look at some of them with --sample N --seed S"
+            "{count} machines with {rows} points each: permitted: {MAX_POINTS} points in all; look at some of them with --sample N --seed S; the program also has a search, --search N --seed S"
         ));
     }
     let Some(sample) = sample.filter(|_| count < whole) else { return Ok((0..whole).collect()) };

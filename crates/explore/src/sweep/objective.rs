@@ -15,6 +15,8 @@ pub struct Objective {
     pub most: bool,
     /// Only synthesis gives it.
     pub synth: bool,
+    /// The estimate gives it.
+    pub estimate: bool,
     /// Of several inputs the sum counts; else the worst.
     pub sums: bool,
     /// With its unit, in words.
@@ -22,7 +24,7 @@ pub struct Objective {
 }
 
 const fn least(name: &'static str, pointer: &'static str, doc: &'static str) -> Objective {
-    Objective { name, pointer, most: false, synth: false, sums: false, doc }
+    Objective { name, pointer, most: false, synth: false, estimate: false, sums: false, doc }
 }
 
 const fn cells(name: &'static str, pointer: &'static str, doc: &'static str) -> Objective {
@@ -31,6 +33,10 @@ const fn cells(name: &'static str, pointer: &'static str, doc: &'static str) -> 
 
 const fn rate(name: &'static str, pointer: &'static str, doc: &'static str) -> Objective {
     Objective { most: true, ..cells(name, pointer, doc) }
+}
+
+const fn estimated(name: &'static str, pointer: &'static str, doc: &'static str) -> Objective {
+    Objective { estimate: true, ..least(name, pointer, doc) }
 }
 
 /// All of them.
@@ -55,6 +61,15 @@ pub const OBJECTIVES: &[Objective] = &[
         "mean distance of a pixel from the shading equation, LSB of 8 bits, simulated",
     ),
     least("word_bits", "/derived/word_bits", "bits of the interpolator's words, all channels"),
+    estimated("est_lut4", "/estimate/est_lut4/value", "look-up tables, estimated"),
+    estimated("est_ff", "/estimate/est_ff", "flip-flops, as synthesis counts them"),
+    estimated("est_carry", "/estimate/est_carry", "cells of the carry chain, as synthesis counts them"),
+    estimated("est_ram", "/estimate/est_ram", "memories, as synthesis counts them"),
+    estimated("est_cells", "/estimate/est_cells/value", "packed cells of an iCE40, estimated"),
+    Objective {
+        most: true,
+        ..estimated("est_mhz", "/estimate/est_mhz/value", "clock on an HX8K, MHz, estimated")
+    },
     cells("lut4", "/synth/cells/lut4", "look-up tables, synthesised"),
     cells("ff", "/synth/cells/ff", "flip-flops, synthesised"),
     cells("carry", "/synth/cells/carry", "cells of the carry chain, synthesised"),
@@ -105,6 +120,13 @@ impl Objective {
     #[must_use]
     pub fn is_of_equation(&self) -> bool {
         self.pointer.starts_with("/equation/")
+    }
+
+    /// What an estimated figure of a row may be off by.
+    #[must_use]
+    pub fn error_of(&self, row: &Value) -> f64 {
+        let error = self.pointer.strip_suffix("/value").map(|figure| format!("{figure}/error"));
+        error.and_then(|error| row.pointer(&error)?.as_f64()).unwrap_or(0.0)
     }
 
     /// What a row says of it.

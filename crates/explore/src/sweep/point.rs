@@ -38,12 +38,14 @@ pub struct Identity {
     pub synth: String,
     /// The bound asked for.
     pub bound: String,
+    /// What the machine must keep; empty if nothing.
+    pub require: String,
 }
 
 impl Identity {
     /// Each part with its name.
     #[must_use]
-    pub fn parts(&self) -> [(&'static str, &str); 7] {
+    pub fn parts(&self) -> [(&'static str, &str); 8] {
         [
             ("machine", &self.machine),
             ("input", &self.input),
@@ -52,6 +54,7 @@ impl Identity {
             ("version", &self.version),
             ("synth", &self.synth),
             ("bound", &self.bound),
+            ("require", &self.require),
         ]
     }
 
@@ -59,7 +62,10 @@ impl Identity {
     #[must_use]
     pub fn key(&self) -> String {
         let mut digest = Sha256::new();
-        for (name, part) in self.parts() {
+        // Rows from before there were requirements keep their keys.
+        for (name, part) in
+            self.parts().into_iter().filter(|(name, part)| *name != "require" || !part.is_empty())
+        {
             digest.update(format!("{name}={part}\n"));
         }
         hex(&digest.finalize()[..8])

@@ -68,7 +68,7 @@ pub fn without_figures(sweep: &Sweep, point: &Point, status: Status, reason: &st
 /// What a row says of its point, before anything is known of it.
 pub(super) fn identity(sweep: &Sweep, point: &Point) -> Value {
     let way = sweep.drawn(point);
-    json!({
+    let mut row = json!({
         "key": point.key,
         "status": null,
         "input": sweep.inputs[point.input].name,
@@ -79,7 +79,11 @@ pub(super) fn identity(sweep: &Sweep, point: &Point) -> Value {
         "version": sweep.definition.program,
         "synthesis": sweep.synth_identity(),
         "keys": keys(&point.machine),
-    })
+    });
+    if !sweep.requirements.is_empty() {
+        row["require"] = sweep.require_identity().into();
+    }
+    row
 }
 
 /// What synthesis said, or what became of it.
@@ -91,15 +95,21 @@ pub struct Found {
     pub report: Report,
     /// How far the picture is from the shading equation, where that was asked for.
     pub equation: Option<Distance>,
-    /// What synthesis said, if it was asked.
-    pub cost: Option<Cost>,
+    /// The estimate of the machine, where that was asked for.
+    pub estimate: Option<Value>,
 }
 
-/// The row of a point that was drawn.
+/// The row of a point that was drawn. `synthesise` counts the cells of a machine that meets all requirements.
 ///
 /// # Errors
 /// A report that cannot be written.
-pub fn with_figures(sweep: &Sweep, point: &Point, plan: &Plan, found: Found) -> Result<Value> {
+pub fn with_figures(
+    sweep: &Sweep,
+    point: &Point,
+    plan: &Plan,
+    found: Found,
+    synthesise: Option<&(dyn Fn(&Plan) -> Cost + Sync)>,
+) -> Result<Value> {
     let mut row = identity(sweep, point);
     row["status"] = Status::Ok.name().into();
     if let Some(comparison) = &found.report.comparison {
@@ -114,7 +124,12 @@ pub fn with_figures(sweep: &Sweep, point: &Point, plan: &Plan, found: Found) -> 
     if let Some(distance) = found.equation {
         row["equation"] = serde_json::to_value(distance)?;
     }
-    match found.cost {
+    if let Some(estimate) = found.estimate {
+        row["estimate"] = estimate;
+    }
+    // A machine that breaks a requirement already is not built.
+    let broken = sweep.requirements.iter().find(|requirement| requirement.broken_by(&row));
+    match synthesise.filter(|_| broken.is_none()).map(|synthesise| synthesise(plan)) {
         None => {}
         Some(Ok(synth)) => row["synth"] = synth,
         Some(Err((status, reason))) => {

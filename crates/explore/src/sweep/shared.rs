@@ -29,12 +29,14 @@ pub const TIMING: [&str; 8] = [
 ];
 
 /// Keys that golden depends on.
-const GEOMETRY: [&str; 3] = ["screen.", "edge.fill", "channels."];
+const GEOMETRY: [&str; 4] = ["screen.", "edge.fill", "channels.", "polygon."];
 
-/// Machines alike in this have golden and the frame in common.
+/// Machines alike in this have golden and the frame in common. With POLY a polygon's formats decide whether a plane holds its
+/// values.
 #[must_use]
 pub fn geometry_key(machine: &Machine) -> Vec<u32> {
-    values(machine, |name| GEOMETRY.iter().any(|start| name.starts_with(start)))
+    let formats = if machine.polygon.is_there() { "formats." } else { GEOMETRY[0] };
+    values(machine, |name| GEOMETRY.iter().chain([&formats]).any(|start| name.starts_with(start)))
 }
 
 /// Machines alike in this draw the same pixels.
@@ -171,7 +173,12 @@ impl Pixels {
             triangles.map(|triangle| edgewalk_model::setup_clocks(plan, triangle)).collect()
         };
         let fates = clocks.iter().zip(&self.culled).zip(self.passage.fates());
-        let facts = fates.map(|((clocks, culled), fate)| (clocks.all(), *culled, fate.pixels));
+        let mut spent = 0;
+        // A polygon is any number of tokens: its clocks are theirs, and what becomes of it the last one says.
+        let facts = fates.filter_map(|((clocks, culled), fate)| {
+            spent += clocks.all();
+            fate.ends.then(|| (std::mem::take(&mut spent), *culled, fate.pixels))
+        });
         let report = SetupReport::of(plan, facts);
         Ok(Setup { clocks, report })
     }

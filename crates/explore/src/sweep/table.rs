@@ -25,6 +25,8 @@ pub struct Candidate<'t> {
     pub rows: Vec<Vec<&'t Value>>,
     /// The value of each objective; none where one of them is not known.
     pub values: Option<Vec<f64>>,
+    /// What is required and it does not keep, by the place of the first.
+    pub ruled_out: Option<usize>,
     /// Which front it lies on, 1 the best; none where a value is not known.
     pub front: Option<u32>,
 }
@@ -82,7 +84,7 @@ impl<'t> Table<'t> {
             rows.push(row);
             if last != Some(point.number) {
                 let rows = vec![Vec::new(); sweep.memories.len()];
-                machines.push(Candidate { rows, values: None, front: None });
+                machines.push(Candidate { rows, values: None, ruled_out: None, front: None });
                 last = Some(point.number);
             }
             if let Some(machine) = machines.last_mut() {
@@ -90,7 +92,11 @@ impl<'t> Table<'t> {
             }
         }
         for machine in &mut machines {
-            machine.values = values(sweep, &machine.rows);
+            machine.ruled_out = sweep
+                .requirements
+                .iter()
+                .position(|requirement| requirement.rules_out(sweep.judge, &machine.rows));
+            machine.values = values(sweep, &machine.rows).filter(|_| machine.ruled_out.is_none());
         }
         let known: Vec<usize> = (0..machines.len()).filter(|i| machines[*i].values.is_some()).collect();
         let costs: Vec<Vec<f64>> = known
@@ -140,6 +146,19 @@ impl<'t> Table<'t> {
     pub fn counts(&self) -> [(Status, usize); 5] {
         Status::ALL
             .map(|status| (status, self.rows.iter().filter(|row| Status::of(row) == Some(status)).count()))
+    }
+
+    /// How many machines each requirement ruled out; a machine counts for the first that it does not keep.
+    #[must_use]
+    pub fn ruled_out(&self) -> Vec<(String, usize)> {
+        let of =
+            |place: usize| self.machines.iter().filter(|machine| machine.ruled_out == Some(place)).count();
+        self.sweep
+            .requirements
+            .iter()
+            .enumerate()
+            .map(|(place, text)| (text.to_string(), of(place)))
+            .collect()
     }
 
     /// How many rows show an error beyond what is proved: each is a fault of the program.

@@ -1,0 +1,223 @@
+//! What a machine must keep to be wanted: `--require 'est_lut4<=4500'`, `--fits ice40-up5k`.
+
+use super::judge::Judge;
+use super::objective::{OBJECTIVES, Objective};
+use anyhow::{Result, anyhow};
+use edgewalk_machine::Unknown;
+use serde_json::Value;
+
+/// The device whose cells and clock are estimated.
+const ESTIMATED: &str = "ice40-hx8k";
+
+/// A limit of a figure, or a device.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Requirement {
+    /// A figure is at most, or at least, so much.
+    Figure {
+        /// Which.
+        objective: Objective,
+        /// The figure may not be less; else it may not be more.
+        at_least: bool,
+        /// The limit.
+        limit: f64,
+        /// The estimate of the figure, where `objective` is measured by synthesis: what it rules out is not built.
+        estimate: Option<Objective>,
+    },
+    /// The estimate fits a device, or its error leaves that open.
+    Fits(String),
+}
+
+impl Requirement {
+    /// Reads `NAME<=NUMBER` or `NAME>=NUMBER`. Without synthesis for a device, a figure that synthesis measures is the
+    /// estimate's.
+    ///
+    /// # Errors
+    /// What is wrong, and at which character.
+    pub fn parse(text: &str, synth: Option<&str>) -> Result<Requirement> {
+        let says = |why: String| anyhow!("--require '{text}': {why}");
+        let place = |rest: &str| text.chars().count() - rest.chars().count() + 1;
+        let relation = text.find(['<', '>', '=', '!']);
+        let Some(at) = relation else {
+            return Err(says(match text.trim() {
+                "" => "is empty: write NAME<=NUMBER or NAME>=NUMBER".to_owned(),
+                name => format!("no <= or >= behind `{name}`: write NAME<=NUMBER or NAME>=NUMBER"),
+            }));
+        };
+        let (name, rest) = text.split_at(at);
+        let name = name.trim();
+        if name.is_empty() {
+            return Err(says(format!("position {}: found `{}` before any name", place(rest), first(rest))));
+        }
+        let (at_least, number) = match (rest.strip_prefix("<="), rest.strip_prefix(">=")) {
+            (Some(number), _) => (false, number),
+            (_, Some(number)) => (true, number),
+            _ => {
+                let found: String = rest.chars().take_while(|c| "<>=!".contains(*c)).collect();
+                return Err(says(format!("position {}: found `{found}`: permitted: <=, >=", place(rest))));
+            }
+        };
+        let all = || OBJECTIVES.iter().map(|objective| objective.name);
+        let named = |name: &str| OBJECTIVES.iter().find(|objective| objective.name == name).copied();
+        let Some(objective) = named(name) else {
+            return Err(says(format!(
+                "position {}: {}",
+                place(text.trim_start()),
+                Unknown::new("figure", name, all())
+            )));
+        };
+        let estimate = named(&format!("est_{name}")).filter(|_| objective.synth);
+        let objective = match estimate {
+            Some(estimate) if synth.is_none() => estimate,
+            None if objective.synth && synth.is_none() => {
+                return Err(says(format!("only synthesis gives {name}; add --synth TARGET")));
+            }
+            _ => objective,
+        };
+        let estimate = estimate.filter(|_| synth == Some(ESTIMATED));
+        let trimmed = number.trim();
+        let position = place(number.trim_start());
+        if trimmed.is_empty() {
+            return Err(says(format!("position {position}: no number behind {}", sign(at_least))));
+        }
+        let limit: f64 = trimmed.parse().map_err(|_| {
+            says(format!("position {position}: `{trimmed}` is no number: permitted: 4500, 0.75, 1e6"))
+        })?;
+        if !limit.is_finite() || limit < 0.0 {
+            return Err(says(format!(
+                "position {position}: `{trimmed}`: permitted: a finite number of 0 or more"
+            )));
+        }
+        Ok(Requirement::Figure { objective, at_least, limit, estimate })
+    }
+
+    /// All of them.
+    ///
+    /// # Errors
+    /// One that cannot be read, a device twice, a figure with two limits on one side or with limits that nothing keeps.
+    pub fn list(texts: &[String], devices: &[String], synth: Option<&str>) -> Result<Vec<Requirement>> {
+        let mut all: Vec<Requirement> = Vec::new();
+        for text in texts {
+            let own = Requirement::parse(text, synth)?;
+            for other in &all {
+                if let Some(why) = own.clashes(other) {
+                    return Err(anyhow!("--require '{text}': {why}"));
+                }
+            }
+            all.push(own);
+        }
+        for device in devices {
+            let own = Requirement::Fits(device.clone());
+            if all.contains(&own) {
+                return Err(anyhow!("--fits {device}: is given twice; give it once"));
+            }
+            all.push(own);
+        }
+        Ok(all)
+    }
+
+    fn clashes(&self, other: &Requirement) -> Option<String> {
+        let (
+            Requirement::Figure { objective, at_least, limit, .. },
+            Requirement::Figure { objective: o, at_least: l, limit: against, .. },
+        ) = (self, other)
+        else {
+            return None;
+        };
+        if objective != o {
+            return None;
+        }
+        if at_least == l {
+            return Some(format!("{other} is required already; give one of them"));
+        }
+        let (low, high) = if *at_least { (limit, against) } else { (against, limit) };
+        (low > high).then(|| format!("no figure keeps this and {other}"))
+    }
+
+    /// Whether it asks for the estimate.
+    #[must_use]
+    pub fn is_of_estimate(&self) -> bool {
+        match self {
+            Requirement::Figure { objective, estimate, .. } => objective.estimate || estimate.is_some(),
+            Requirement::Fits(_) => true,
+        }
+    }
+
+    /// Whether the estimate rules a machine out before it is drawn or built. Where synthesis follows, only what lies
+    /// beyond the estimate's error is ruled out.
+    #[must_use]
+    pub fn rules_out_early(&self, row: &Value) -> bool {
+        match self {
+            Requirement::Fits(device) => fits(row, device) == Some(false),
+            Requirement::Figure { objective, .. } if objective.estimate => {
+                objective.of(row).is_some_and(|value| !self.keeps(value))
+            }
+            Requirement::Figure { estimate: Some(estimate), at_least, .. } => {
+                let Some(value) = estimate.of(row) else { return false };
+                let error = estimate.error_of(row);
+                !self.keeps(if *at_least { value + error } else { value - error })
+            }
+            Requirement::Figure { .. } => false,
+        }
+    }
+
+    /// Whether a machine, whose rows these are, breaks it. What is not known breaks nothing.
+    #[must_use]
+    pub fn rules_out(&self, judge: Judge, rows: &[Vec<&Value>]) -> bool {
+        match self {
+            Requirement::Fits(device) => rows.iter().flatten().any(|row| fits(row, device) == Some(false)),
+            Requirement::Figure { objective, .. } => {
+                rows.iter().flatten().any(|row| self.rules_out_early(row))
+                    || judge.value(objective, rows).is_some_and(|value| !self.keeps(value))
+            }
+        }
+    }
+
+    /// Whether a row of one input breaks it: then all the machine's rows do.
+    #[must_use]
+    pub fn broken_by(&self, row: &Value) -> bool {
+        match self {
+            Requirement::Figure { objective, at_least: false, .. } if !objective.most => {
+                objective.of(row).is_some_and(|value| !self.keeps(value))
+            }
+            _ => false,
+        }
+    }
+
+    fn keeps(&self, value: f64) -> bool {
+        match self {
+            Requirement::Figure { at_least, limit, .. } => {
+                if *at_least {
+                    value >= *limit
+                } else {
+                    value <= *limit
+                }
+            }
+            Requirement::Fits(_) => true,
+        }
+    }
+}
+
+impl std::fmt::Display for Requirement {
+    fn fmt(&self, f: &mut std::fmt::Formatter) -> std::fmt::Result {
+        match self {
+            Requirement::Figure { objective, at_least, limit, .. } => {
+                write!(f, "{} {} {limit}", objective.name, sign(*at_least))
+            }
+            Requirement::Fits(device) => write!(f, "fits {device}"),
+        }
+    }
+}
+
+fn sign(at_least: bool) -> &'static str {
+    if at_least { ">=" } else { "<=" }
+}
+
+fn first(text: &str) -> String {
+    text.chars().take(1).collect()
+}
+
+/// What the estimate says of a device; none where its error leaves that open.
+fn fits(row: &Value, device: &str) -> Option<bool> {
+    let list = row.pointer("/estimate/fits")?.as_array()?;
+    list.iter().find(|of| of["device"] == device)?["fits"].as_bool()
+}

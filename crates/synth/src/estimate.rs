@@ -1,0 +1,33 @@
+//! What a machine costs on an iCE40, worked out from its netlist in milliseconds, without tools.
+//!
+//! ```text
+//!  netlist ─> words ─> logic, carry chains, flip-flops, memory blocks ─> cover of 4-input tables ─> counts, longest path
+//!                                                                              measured machines ─> factors, delays, errors
+//! ```
+//! Flip-flops, carry cells and memory blocks are those of Yosys' `synth_ice40`, as its passes are followed one by one.
+//! Look-up tables and clock are a model's, whose factors were fitted to machines that were synthesised.
+
+mod words;
+mod narrow;
+mod graph;
+mod arithmetic;
+mod sat;
+mod builder;
+mod operators;
+mod registers;
+mod blocks;
+mod build;
+mod cover;
+mod merge;
+mod delay;
+mod structure;
+mod of_part;
+mod fit;
+mod measured;
+mod device;
+
+pub use delay::{Delays, Path};
+pub use device::{Fits, fits};
+pub use fit::{Errors, Estimate, Figure, Fit};
+pub use measured::{Measured, Sample};
+pub use structure::{Structure, UnitTables};

@@ -1,0 +1,173 @@
+//! Memories in blocks of 4 kbit, or in flip-flops where these cost less (`memory_libmap`).
+
+use super::builder::{BlockMemory, Builder, Guard};
+use super::graph::{FALSE, Lit, Node, TRUE};
+use super::words::{Bit, Memory, ONE};
+use std::ops::Range;
+
+/// Blocks of 4 kbit: words and bits that one can be set to.
+const SHAPES: [(usize, usize); 4] = [(256, 16), (512, 8), (1024, 4), (2048, 2)];
+/// A block costs as much as so many bits in flip-flops (`brams.txt` of Yosys).
+const BLOCK_COST: usize = 64;
+
+impl Builder<'_> {
+    /// Blocks for a memory, none where flip-flops are cheaper; and the nodes of its outputs.
+    pub fn outputs(&mut self, place: usize) -> Option<usize> {
+        let memory = &self.words.memories[place];
+        self.graph.unit = memory.unit;
+        // A bit takes no room if no port reads it, or if only one constant is written to it.
+        let read = |bit: usize| {
+            let fixed = |(_, _, data): &(Bit, Range<usize>, Range<usize>)| self.words.at(data)[bit] <= ONE;
+            let constant = !memory.writes.is_empty() && memory.writes.iter().all(fixed);
+            !constant && memory.reads.iter().any(|(_, _, first)| self.words.users[*first as usize + bit] > 0)
+        };
+        let held: Vec<usize> = (0..memory.width).filter(|bit| read(*bit)).collect();
+        let needed = |(deep, wide): (usize, usize)| memory.words.div_ceil(deep) * held.len().div_ceil(wide);
+        let (deep, wide) = SHAPES.into_iter().min_by_key(|shape| needed(*shape)).unwrap_or((1, 1));
+        let blocks = needed((deep, wide)) * memory.reads.len();
+        let bits = memory.words * held.len();
+        let bits = if memory.rom.is_some() { bits / 16 } else { bits };
+        let in_blocks = blocks * BLOCK_COST < bits && memory.writes.len() <= 1;
+        let first_block = self.memories.len();
+        if in_blocks {
+            for port in 0..memory.reads.len() {
+                for bits in held.chunks(wide) {
+                    let (blocks, bits) = (memory.words.div_ceil(deep) as u32, bits.to_vec());
+                    let (inputs, reads, writes) = (Vec::new(), Vec::new(), Vec::new());
+                    self.memories.push(BlockMemory { place, port, bits, blocks, inputs, reads, writes });
+                }
+            }
+        }
+        let guard = (in_blocks && self.guarded[place]).then(|| Guard {
+            enable: self.own(),
+            address: self.words.at(&memory.writes[0].1).iter().map(|_| self.own()).collect(),
+            data: (0..memory.width).map(|_| self.own()).collect(),
+            passes: memory
+                .reads
+                .iter()
+                .map(|_| (self.own(), (0..memory.width).map(|_| self.own()).collect()))
+                .collect(),
+        });
+        for (port, (_, _, first)) in memory.reads.iter().enumerate() {
+            for at in 0..memory.width {
+                let bit = *first + at as Bit;
+                if self.known.contains_key(&bit) {
+                    continue;
+                }
+                let output = if in_blocks {
+                    let before = held.iter().filter(|held| **held < at).count().min(held.len() - 1);
+                    let column = port * held.len().div_ceil(wide) + before / wide;
+                    self.graph.node(Node::Memory((first_block + column) as u32))
+                } else {
+                    self.flip_flop(bit)
+                };
+                self.lits[bit as usize] = match &guard {
+                    Some(guard) => self.graph.mux(guard.passes[port].0, guard.passes[port].1[at], output),
+                    None => output,
+                };
+            }
+        }
+        self.guards.extend(guard);
+        in_blocks.then_some(first_block)
+    }
+
+    /// What the blocks of a memory read, from the first of them.
+    pub fn block_memory(&mut self, memory: &Memory, first: usize) {
+        let reads: Vec<(Lit, Vec<Lit>)> =
+            memory.reads.iter().map(|(enable, address, _)| (self.lit(*enable), self.word(address))).collect();
+        let place = self.memories[first].place;
+        let mut writes = Vec::new();
+        for (enable, address, data) in &memory.writes {
+            let (mut enable, mut address, mut data) =
+                (self.lit(*enable), self.word(address), self.word(data));
+            if self.guarded[place] {
+                let guard = self.guards.remove(0);
+                for (port, (passes, word)) in guard.passes.iter().enumerate() {
+                    let (read, from) = &reads[port];
+                    let same = self.graph.equal(from, &guard.address);
+                    let passing = self.graph.and(guard.enable, same);
+                    self.drive(*passes, passing, *read, None, false);
+                    for (at, bit) in word.iter().enumerate() {
+                        self.drive(*bit, guard.data[at], *read, None, true);
+                    }
+                }
+                self.drive(guard.enable, enable, TRUE, None, true);
+                for (late, now) in guard.address.iter().chain(&guard.data).zip(address.iter().chain(&data)) {
+                    self.drive(*late, *now, TRUE, None, true);
+                }
+                (enable, address, data) = (guard.enable, guard.address, guard.data);
+            }
+            writes.push((enable, address, data));
+        }
+        for block in self.memories[first..].iter_mut().take_while(|block| block.place == place) {
+            let read = &reads[block.port];
+            block.inputs.push(read.0);
+            block.inputs.extend(&read.1);
+            block.reads.push(read.clone());
+            for (enable, address, data) in &writes {
+                block.inputs.push(*enable);
+                block.inputs.extend(address);
+                block.inputs.extend(block.bits.iter().map(|bit| data[*bit]));
+                block.writes.push((*enable, address.clone()));
+            }
+        }
+    }
+
+    /// A flip-flop for each bit, and a tree of choices in front of each read port's.
+    pub fn memory_of_flip_flops(&mut self, memory: &Memory) {
+        let mut words: Vec<Vec<Lit>> = Vec::new();
+        for address in 0..memory.words {
+            let word = match &memory.rom {
+                Some(rom) => (0..memory.width).map(|bit| Lit::from(rom[address] >> bit & 1 == 1)).collect(),
+                None => (0..memory.width).map(|_| self.own()).collect(),
+            };
+            words.push(word);
+        }
+        let writes: Vec<(Lit, Vec<Lit>, Vec<Lit>)> = memory
+            .writes
+            .iter()
+            .map(|(enable, address, data)| (self.lit(*enable), self.word(address), self.word(data)))
+            .collect();
+        for (address, word) in words.iter().enumerate() {
+            let mut taken = Vec::new();
+            for (enable, at, data) in &writes {
+                let here: Vec<Lit> = at
+                    .iter()
+                    .enumerate()
+                    .map(|(bit, lit)| lit ^ Lit::from(address >> bit & 1 == 0))
+                    .collect();
+                let here = self.graph.all(&here);
+                taken.push((self.graph.and(*enable, here), data));
+            }
+            for (bit, q) in word.iter().enumerate() {
+                let (mut d, mut enable) = (*q, FALSE);
+                for (when, data) in &taken {
+                    d = if enable == FALSE { data[bit] } else { self.graph.mux(*when, data[bit], d) };
+                    enable = self.graph.or(enable, *when);
+                }
+                self.drive(*q, d, enable, None, true);
+            }
+        }
+        for (enable, address, first) in &memory.reads {
+            let (enable, address) = (self.lit(*enable), self.word(address));
+            for bit in 0..memory.width {
+                let own = *first + bit as Bit;
+                if self.known.contains_key(&own) {
+                    continue;
+                }
+                let mut row: Vec<Lit> = words.iter().map(|word| word[bit]).collect();
+                for select in &address {
+                    row = row
+                        .chunks(2)
+                        .map(|pair| match pair {
+                            [low, high] => self.graph.mux(*select, *high, *low),
+                            _ => pair[0],
+                        })
+                        .collect();
+                }
+                let q = self.lits[own as usize];
+                self.drive(q, row[0], enable, None, true);
+            }
+        }
+    }
+}

@@ -1,0 +1,385 @@
+//! Logic as look-up tables of four inputs: cuts of each node, the quickest first, then fewer tables where time is left.
+
+use super::build::Built;
+use super::graph::{Lit, Node};
+
+/// Cuts kept of a node.
+const KEPT: usize = 6;
+const INPUTS: usize = 4;
+
+/// A way to compute a node: a table of these.
+#[derive(Clone, Copy, Debug, Default)]
+struct Cut {
+    leaves: [u32; INPUTS],
+    len: u8,
+    depth: u16,
+    flow: f32,
+    /// A bit for each leaf, by its last bits.
+    sign: u32,
+}
+
+/// The chosen tables.
+pub(super) struct Cover {
+    /// By node: it is live.
+    pub live: Vec<bool>,
+    /// By node: the table that computes it, if it is the output of one.
+    pub tables: Vec<Option<Table>>,
+    /// By node: who reads it, tables and all else.
+    pub readers: Vec<u32>,
+    /// Tables that only invert.
+    pub inverters: Vec<u32>,
+}
+
+/// A table.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Table {
+    leaves: [u32; INPUTS],
+    len: u8,
+}
+
+impl Table {
+    pub fn leaves(&self) -> &[u32] {
+        &self.leaves[..self.len as usize]
+    }
+}
+
+impl Cut {
+    fn leaves(&self) -> &[u32] {
+        &self.leaves[..self.len as usize]
+    }
+
+    fn of(node: u32) -> Cut {
+        Cut { leaves: [node, 0, 0, 0], len: 1, depth: 0, flow: 0.0, sign: 1 << (node & 31) }
+    }
+
+    /// Both together, if they have no more than four leaves.
+    #[inline]
+    fn joined(&self, other: &Cut) -> Option<Cut> {
+        let sign = self.sign | other.sign;
+        if sign.count_ones() > INPUTS as u32 {
+            return None;
+        }
+        let (a, b) = (self.leaves(), other.leaves());
+        let (mut i, mut j, mut len) = (0, 0, 0);
+        let mut leaves = [0; INPUTS];
+        while i < a.len() || j < b.len() {
+            if len == INPUTS {
+                return None;
+            }
+            let next = match (a.get(i), b.get(j)) {
+                (Some(x), Some(y)) if x == y => {
+                    (i, j) = (i + 1, j + 1);
+                    *x
+                }
+                (Some(x), Some(y)) if x < y => {
+                    i += 1;
+                    *x
+                }
+                (Some(x), None) => {
+                    i += 1;
+                    *x
+                }
+                (_, Some(y)) => {
+                    j += 1;
+                    *y
+                }
+                (None, None) => break,
+            };
+            leaves[len] = next;
+            len += 1;
+        }
+        Some(Cut { leaves, len: len as u8, depth: 0, flow: 0.0, sign })
+    }
+
+    fn within(&self, other: &Cut) -> bool {
+        self.len <= other.len
+            && self.sign & !other.sign == 0
+            && self.leaves().iter().all(|leaf| other.leaves().contains(leaf))
+    }
+}
+
+struct Mapper<'b> {
+    nodes: &'b [Node],
+    live: Vec<bool>,
+    /// By node: its cuts, the chosen one first.
+    cuts: Vec<[Cut; KEPT]>,
+    count: Vec<u8>,
+    depth: Vec<u16>,
+    flow: Vec<f32>,
+    /// Estimated readers.
+    share: Vec<f32>,
+    required: Vec<u16>,
+    readers: Vec<u32>,
+    /// What is wanted of the logic.
+    roots: Vec<Lit>,
+}
+
+/// All that leads to the outputs: by node whether it does.
+pub(super) fn live(built: &Built) -> Vec<bool> {
+    let graph = &built.graph;
+    let mut live = vec![false; graph.nodes.len()];
+    let mut stack: Vec<Lit> = built.outputs.clone();
+    while let Some(lit) = stack.pop() {
+        let node = (lit >> 1) as usize;
+        if std::mem::replace(&mut live[node], true) {
+            continue;
+        }
+        match graph.nodes[node] {
+            Node::Leaf => {}
+            Node::And(a, b) => stack.extend([a, b]),
+            Node::Sum(place) | Node::Carry(place) => stack.extend(graph.carries[place as usize].inputs),
+            Node::Register(place) => {
+                let flip_flop = built.flip_flops[place as usize];
+                stack.extend([flip_flop.d, flip_flop.enable, flip_flop.reset]);
+            }
+            Node::Memory(place) => stack.extend(&built.memories[place as usize].inputs),
+        }
+    }
+    live
+}
+
+/// What the logic between has to give: outputs, what drives live flip-flops, memories and carry chains.
+fn roots(built: &Built, live: &[bool]) -> Vec<Lit> {
+    let mut roots = built.outputs.clone();
+    let mut memories = vec![false; built.memories.len()];
+    let mut carries = vec![false; built.graph.carries.len()];
+    for (index, node) in built.graph.nodes.iter().enumerate().filter(|(index, _)| live[*index]) {
+        match node {
+            Node::Register(place) => {
+                let flip_flop = built.flip_flops[*place as usize];
+                roots.extend([flip_flop.d, flip_flop.enable, flip_flop.reset]);
+            }
+            Node::Memory(place) if !std::mem::replace(&mut memories[*place as usize], true) => {
+                roots.extend(&built.memories[*place as usize].inputs);
+            }
+            Node::Sum(place) | Node::Carry(place)
+                if !std::mem::replace(&mut carries[*place as usize], true) =>
+            {
+                roots.extend(built.graph.carries[*place as usize].inputs);
+            }
+            _ => debug_assert!(live[index]),
+        }
+    }
+    roots.retain(|root| *root > 1);
+    roots
+}
+
+/// Covers the live logic.
+pub(super) fn cover(built: &Built) -> Cover {
+    let live = live(built);
+    let roots = roots(built, &live);
+    let count = built.graph.nodes.len();
+    let mut mapper = Mapper {
+        nodes: &built.graph.nodes,
+        live,
+        cuts: vec![[Cut::default(); KEPT]; count],
+        count: vec![0; count],
+        depth: vec![0; count],
+        flow: vec![0.0; count],
+        share: vec![1.0; count],
+        required: vec![u16::MAX; count],
+        readers: vec![0; count],
+        roots,
+    };
+    mapper.count_fanouts();
+    mapper.enumerate(true);
+    mapper.choose();
+    mapper.enumerate(false);
+    mapper.choose();
+    for _ in 0..2 {
+        mapper.recover();
+        mapper.choose();
+    }
+    mapper.finish()
+}
+
+impl Mapper<'_> {
+    fn count_fanouts(&mut self) {
+        let mut fanouts = vec![0u32; self.nodes.len()];
+        for (index, node) in self.nodes.iter().enumerate() {
+            if let Node::And(a, b) = node
+                && self.live[index]
+            {
+                fanouts[(a >> 1) as usize] += 1;
+                fanouts[(b >> 1) as usize] += 1;
+            }
+        }
+        self.roots.iter().for_each(|root| fanouts[(root >> 1) as usize] += 1);
+        self.share = fanouts.iter().map(|count| (*count).max(1) as f32).collect();
+    }
+
+    /// The best cuts of each node: the quickest, or those of the fewest tables among those that are quick enough.
+    fn enumerate(&mut self, quickest: bool) {
+        for index in 0..self.nodes.len() {
+            if !self.live[index] {
+                continue;
+            }
+            let Node::And(a, b) = self.nodes[index] else {
+                continue;
+            };
+            let (a, b) = ((a >> 1) as usize, (b >> 1) as usize);
+            let mut best: [Cut; KEPT] = [Cut::default(); KEPT];
+            let mut kept = 0;
+            let limit = if quickest { u16::MAX } else { self.required[index] };
+            let (own_a, own_b) = (Cut::of(a as u32), Cut::of(b as u32));
+            for i in 0..=self.count[a] as usize {
+                let one = if i == 0 { &own_a } else { &self.cuts[a][i - 1] };
+                for j in 0..=self.count[b] as usize {
+                    let two = if j == 0 { &own_b } else { &self.cuts[b][j - 1] };
+                    let Some(mut cut) = one.joined(two) else { continue };
+                    let mut flow = 1.0;
+                    let mut depth = 0;
+                    for leaf in cut.leaves() {
+                        depth = depth.max(self.depth[*leaf as usize]);
+                        flow += self.flow[*leaf as usize];
+                    }
+                    (cut.depth, cut.flow) = (depth + 1, flow);
+                    if cut.depth > limit {
+                        continue;
+                    }
+                    if best[..kept].iter().any(|known| known.within(&cut)) {
+                        continue;
+                    }
+                    let before = |known: &Cut| {
+                        let by_flow = |a: &Cut, b: &Cut| {
+                            a.flow < b.flow - 1e-4 || (a.flow < b.flow + 1e-4 && a.len <= b.len)
+                        };
+                        match quickest {
+                            true => {
+                                known.depth < cut.depth || (known.depth == cut.depth && by_flow(known, &cut))
+                            }
+                            false => by_flow(known, &cut),
+                        }
+                    };
+                    let place = best[..kept].iter().position(|known| !before(known)).unwrap_or(kept);
+                    if place == KEPT {
+                        continue;
+                    }
+                    let end = kept.min(KEPT - 1);
+                    best.copy_within(place..end, place + 1);
+                    best[place] = cut;
+                    kept = (kept + 1).min(KEPT);
+                }
+            }
+            if kept == 0 {
+                continue; // the cuts found before stay
+            }
+            self.cuts[index] = best;
+            self.count[index] = kept as u8;
+            self.depth[index] = best[0].depth;
+            self.flow[index] = best[0].flow / self.share[index];
+        }
+    }
+
+    /// Takes the first cut of each node that is needed; counts readers and how late each may be.
+    fn choose(&mut self) {
+        self.readers.fill(0);
+        self.required.fill(u16::MAX);
+        let deepest = self.roots.iter().map(|root| self.depth[(root >> 1) as usize]).max().unwrap_or(0);
+        for root in &self.roots {
+            let node = (root >> 1) as usize;
+            self.readers[node] += 1;
+            self.required[node] = self.required[node].min(deepest);
+        }
+        for index in (0..self.nodes.len()).rev() {
+            if self.readers[index] == 0 || self.count[index] == 0 {
+                continue;
+            }
+            let cut = self.cuts[index][0];
+            let required = self.required[index].saturating_sub(1);
+            for leaf in cut.leaves() {
+                let leaf = *leaf as usize;
+                self.readers[leaf] += 1;
+                self.required[leaf] = self.required[leaf].min(required);
+            }
+        }
+        for (share, readers) in self.share.iter_mut().zip(&self.readers) {
+            *share = ((*share + 2.0 * *readers as f32) / 3.0).max(1.0);
+        }
+    }
+
+    /// Of the cuts of each chosen node takes that which adds the fewest tables.
+    fn recover(&mut self) {
+        for index in 0..self.nodes.len() {
+            if self.count[index] == 0 {
+                continue;
+            }
+            let used = self.readers[index] > 0;
+            if used {
+                let cut = self.cuts[index][0];
+                self.leave(&cut);
+            }
+            let mut best = (0, u32::MAX, u16::MAX);
+            for place in 0..self.count[index] as usize {
+                let cut = self.cuts[index][place];
+                let depth = 1 + cut.leaves().iter().map(|leaf| self.depth[*leaf as usize]).max().unwrap_or(0);
+                if depth > self.required[index] && place > 0 {
+                    continue;
+                }
+                let area = self.enter(&cut);
+                self.leave(&cut);
+                if (area, depth) < (best.1, best.2)
+                    || (depth <= self.required[index] && best.2 > self.required[index])
+                {
+                    best = (place, area, depth);
+                }
+            }
+            self.cuts[index].swap(0, best.0);
+            self.depth[index] = best.2;
+            if used {
+                let cut = self.cuts[index][0];
+                self.enter(&cut);
+            }
+        }
+    }
+
+    /// Counts the cut's readers in; how many tables that adds.
+    fn enter(&mut self, cut: &Cut) -> u32 {
+        let mut area = 1;
+        for leaf in cut.leaves() {
+            let leaf = *leaf as usize;
+            self.readers[leaf] += 1;
+            if self.readers[leaf] == 1 && self.count[leaf] > 0 {
+                let below = self.cuts[leaf][0];
+                area += self.enter(&below);
+            }
+        }
+        area
+    }
+
+    /// Counts them out.
+    fn leave(&mut self, cut: &Cut) {
+        for leaf in cut.leaves() {
+            let leaf = *leaf as usize;
+            self.readers[leaf] -= 1;
+            if self.readers[leaf] == 0 && self.count[leaf] > 0 {
+                let below = self.cuts[leaf][0];
+                self.leave(&below);
+            }
+        }
+    }
+
+    fn finish(mut self) -> Cover {
+        let tables: Vec<Option<Table>> = (0..self.nodes.len())
+            .map(|index| {
+                let cut = self.cuts[index][0];
+                (self.readers[index] > 0 && self.count[index] > 0)
+                    .then_some(Table { leaves: cut.leaves, len: cut.len })
+            })
+            .collect();
+        // What is wanted inverted: a table can give that, but not both, and what is no table has to be inverted by one.
+        let (mut plain, mut inverted) = (vec![false; self.nodes.len()], vec![false; self.nodes.len()]);
+        for root in &self.roots {
+            let of = if root & 1 == 0 { &mut plain } else { &mut inverted };
+            of[(root >> 1) as usize] = true;
+        }
+        let inverters: Vec<u32> = (0..self.nodes.len())
+            .filter(|index| inverted[*index] && (plain[*index] || tables[*index].is_none()))
+            .map(|index| index as u32)
+            .collect();
+        for inverter in &inverters {
+            self.readers[*inverter as usize] += 1;
+        }
+        Cover { live: self.live, tables, readers: self.readers, inverters }
+    }
+}

@@ -1,0 +1,42 @@
+//! Whether an estimate fits a device.
+
+use super::fit::Estimate;
+use crate::target::Target;
+use serde::Serialize;
+
+/// A device, and whether a machine fits it.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Fits {
+    /// The device's name.
+    pub device: &'static str,
+    /// Whether it does; none where the estimate's error leaves that open.
+    pub fits: Option<bool>,
+    /// The same in words, with the cells or blocks that decide.
+    pub text: String,
+}
+
+/// Whether a machine of this estimate fits the device, by its cells and its own memory blocks. Memories outside the
+/// machine are not counted.
+#[must_use]
+pub fn fits(of: &Estimate, device: &Target) -> Fits {
+    let of_cells = device.logic_cells.unwrap_or(0) as f64;
+    let blocks: u64 = device.blocks.iter().filter(|block| block.holds_own).map(|block| block.count).sum();
+    let cells = of.est_cells;
+    let said = format!(
+        "{:.0} ± {:.0} cells of {of_cells}, {} blocks of {blocks}",
+        cells.value,
+        cells.error.ceil(),
+        of.est_ram
+    );
+    let fits = match () {
+        () if of.est_ram > blocks || cells.value - cells.error > of_cells => Some(false),
+        () if cells.value + cells.error <= of_cells => Some(true),
+        () => None,
+    };
+    let word = match fits {
+        Some(true) => "fits",
+        Some(false) => "does not fit",
+        None => "may fit",
+    };
+    Fits { device: device.name, fits, text: format!("{word}: {said}") }
+}

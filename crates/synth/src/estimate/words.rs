@@ -1,0 +1,487 @@
+//! The netlist as cells whose operands are single bits: hierarchy, wires, slices and extensions are gone, and so is what
+//! nobody reads. Equal operators on equal operands are one cell, as Yosys' `opt_merge` makes them.
+
+use super::graph::{Quick, QuickMap};
+use edgewalk_netlist::netlist::{Netlist, NodeId, Source};
+use edgewalk_netlist::ops::Op;
+use std::hash::{Hash, Hasher};
+use std::ops::Range;
+
+/// One bit: [`ZERO`], [`ONE`], or a bit of an input, a register, a memory's output or an operator.
+pub(super) type Bit = u32;
+pub(super) const ZERO: Bit = 0;
+pub(super) const ONE: Bit = 1;
+
+/// An operator that is no wiring.
+#[derive(Clone, Debug)]
+pub(super) struct Cell {
+    pub op: Op,
+    /// Places in [`Words::operands`], least significant bit first.
+    pub operands: Vec<Range<usize>>,
+    /// The bits of its result are `first .. first + width`.
+    pub first: Bit,
+    pub width: usize,
+    /// Which of the top module's instances it lies in; 0 is the top module itself.
+    pub unit: u8,
+    /// Yosys' `flatten` turned the order of its module round.
+    pub backwards: bool,
+}
+
+/// A register; bits are least significant first.
+#[derive(Clone, Debug)]
+pub(super) struct Register {
+    pub first: Bit,
+    pub width: usize,
+    pub reset: Option<u128>,
+    /// Condition and value, the strongest last.
+    pub updates: Vec<(Option<Bit>, Range<usize>)>,
+    pub unit: u8,
+}
+
+/// A register whose values are constants, which others only compare with constants: Yosys' `fsm` gives each state a
+/// flip-flop.
+#[derive(Clone, Debug)]
+pub(super) struct StateMachine {
+    /// In [`Words::registers`].
+    pub register: usize,
+    /// Values of the register.
+    pub states: Vec<u128>,
+}
+
+/// A memory with registered reads.
+#[derive(Clone, Debug)]
+pub(super) struct Memory {
+    pub words: usize,
+    pub width: usize,
+    /// All its words, where nobody writes it.
+    pub rom: Option<Vec<u128>>,
+    /// Enable, address, data.
+    pub writes: Vec<(Bit, Range<usize>, Range<usize>)>,
+    /// Enable, address, first bit of the output.
+    pub reads: Vec<(Bit, Range<usize>, Bit)>,
+    pub unit: u8,
+}
+
+/// All of it.
+#[derive(Debug, Default)]
+pub(super) struct Words {
+    /// Each after those that it is computed from.
+    pub cells: Vec<Cell>,
+    pub operands: Vec<Bit>,
+    pub registers: Vec<Register>,
+    pub memories: Vec<Memory>,
+    pub outputs: Vec<Bit>,
+    /// How many bits there are, constants included.
+    pub bits: usize,
+    /// By bit: how many ports of cells, registers and outputs read it.
+    pub users: Vec<u32>,
+    /// By bit: a choice gives it.
+    pub chosen: Vec<bool>,
+    /// By bit: an operator that works bit by bit gives it, a choice among them.
+    pub bitwise: Vec<bool>,
+    /// Registers that are kept a flip-flop a state.
+    pub machines: Vec<StateMachine>,
+    /// The instances of the top module, behind the top module's own name.
+    pub units: Vec<String>,
+}
+
+/// An instance and where its values stand.
+struct Scope<'n> {
+    netlist: &'n Netlist,
+    /// The scope around it and the instance there.
+    parent: Option<(usize, usize)>,
+    children: Vec<usize>,
+    /// Where its nodes begin in [`Reader::known`].
+    base: usize,
+    unit: u8,
+    /// An odd number of modules is around the scope. Putting one into another turns the order of the cells round.
+    backwards: bool,
+}
+
+struct Reader<'n> {
+    scopes: Vec<Scope<'n>>,
+    words: Words,
+    /// By node: where its bits stand among the operands.
+    known: Vec<Option<Range<usize>>>,
+    same: QuickMap<(Op, Vec<Bit>), Bit>,
+    registers: Vec<(usize, usize)>,
+    memories: QuickMap<(usize, usize), usize>,
+    /// Read ports of memories that somebody reads: scope, memory, port.
+    waiting: Vec<(usize, usize, usize)>,
+}
+
+impl Words {
+    /// Of the module with all that is in it.
+    pub fn of(netlist: &Netlist) -> Words {
+        let mut reader = Reader {
+            scopes: Vec::new(),
+            words: Words { bits: 2, units: vec![netlist.name.clone()], ..Words::default() },
+            known: Vec::new(),
+            same: QuickMap::default(),
+            registers: Vec::new(),
+            memories: QuickMap::default(),
+            waiting: Vec::new(),
+        };
+        reader.scope(netlist, None, 0);
+        for output in &netlist.outputs {
+            let bits = reader.read(0, output.driver);
+            let bits = reader.words.operands[bits].to_vec();
+            reader.words.outputs.extend(bits);
+        }
+        reader.state();
+        reader.words.count_users();
+        reader.words.find_choices();
+        reader.words.machines = state_machines(&reader.words);
+        reader.words
+    }
+
+    /// The bits there.
+    pub fn at(&self, place: &Range<usize>) -> &[Bit] {
+        &self.operands[place.clone()]
+    }
+
+    /// A number for what is computed, the same wherever the program runs.
+    pub fn shape(&self) -> u64 {
+        let mut hash = Quick::default();
+        for cell in &self.cells {
+            cell.op.hash(&mut hash);
+            (cell.first, cell.width).hash(&mut hash);
+            cell.operands.iter().for_each(|place| self.at(place).hash(&mut hash));
+        }
+        for register in &self.registers {
+            (register.first, register.width, register.reset).hash(&mut hash);
+            for (when, value) in &register.updates {
+                (when, self.at(value)).hash(&mut hash);
+            }
+        }
+        for memory in &self.memories {
+            (memory.words, memory.width, &memory.rom).hash(&mut hash);
+            for (enable, address, data) in &memory.writes {
+                (enable, self.at(address), self.at(data)).hash(&mut hash);
+            }
+            for (enable, address, first) in &memory.reads {
+                (enable, self.at(address), first).hash(&mut hash);
+            }
+        }
+        self.outputs.hash(&mut hash);
+        hash.finish()
+    }
+
+    fn find_choices(&mut self) {
+        (self.chosen, self.bitwise) = (vec![false; self.bits], vec![false; self.bits]);
+        for cell in &self.cells {
+            let bits = cell.first as usize..cell.first as usize + cell.width;
+            self.chosen[bits.clone()].fill(cell.op == Op::Mux);
+            self.bitwise[bits].fill(matches!(cell.op, Op::Mux | Op::And | Op::Or | Op::Xor | Op::Not));
+        }
+    }
+
+    fn count_users(&mut self) {
+        let mut users = vec![0u32; self.bits];
+        let mut read = |bits: &[Bit]| bits.iter().for_each(|bit| users[*bit as usize] += 1);
+        for cell in &self.cells {
+            cell.operands.iter().for_each(|place| read(self.at(place)));
+        }
+        for register in &self.registers {
+            for (when, value) in &register.updates {
+                read(when.as_slice());
+                read(self.at(value));
+            }
+        }
+        for memory in &self.memories {
+            for (enable, address, data) in &memory.writes {
+                read(&[*enable]);
+                read(self.at(address));
+                read(self.at(data));
+            }
+            for (enable, address, _) in &memory.reads {
+                read(&[*enable]);
+                read(self.at(address));
+            }
+        }
+        read(&self.outputs);
+        self.users = users;
+    }
+}
+
+impl<'n> Reader<'n> {
+    fn scope(&mut self, netlist: &'n Netlist, parent: Option<(usize, usize)>, unit: u8) -> usize {
+        let index = self.scopes.len();
+        let base = self.known.len();
+        self.known.resize(base + netlist.nodes.len(), None);
+        let backwards = parent.is_some_and(|(around, _)| !self.scopes[around].backwards);
+        self.scopes.push(Scope { netlist, parent, children: Vec::new(), base, unit, backwards });
+        for (place, instance) in netlist.instances.iter().enumerate() {
+            let unit = if parent.is_none() {
+                self.words.units.push(instance.name.trim_start_matches("u_").to_owned());
+                u8::try_from(self.words.units.len() - 1).unwrap_or(u8::MAX)
+            } else {
+                unit
+            };
+            let child = self.scope(&instance.module, Some((index, place)), unit);
+            self.scopes[index].children.push(child);
+        }
+        index
+    }
+
+    /// Where the bits of a node stand; a first reader makes them.
+    fn read(&mut self, scope: usize, node: NodeId) -> Range<usize> {
+        let slot = self.scopes[scope].base + node.index();
+        if let Some(known) = &self.known[slot] {
+            return known.clone();
+        }
+        let place = self.made(scope, node);
+        self.known[slot] = Some(place.clone());
+        place
+    }
+
+    fn made(&mut self, scope: usize, node: NodeId) -> Range<usize> {
+        let netlist = self.scopes[scope].netlist;
+        let width = netlist.width(node) as usize;
+        match &netlist.node(node).source {
+            Source::Input(port) => match self.scopes[scope].parent {
+                Some((parent, instance)) => {
+                    let driver = self.scopes[parent].netlist.instances[instance].connections[*port];
+                    self.read(parent, driver)
+                }
+                None => self.fresh(width),
+            },
+            Source::Constant { value, .. } => {
+                let bits: Vec<Bit> = (0..width).map(|bit| (value >> bit & 1) as Bit).collect();
+                self.keep(&bits)
+            }
+            Source::Wire(wire) => self.read(scope, netlist.wires[*wire].driver),
+            Source::Register(register) => {
+                self.registers.push((scope, *register));
+                self.fresh(width)
+            }
+            Source::MemoryRead { memory, port } => {
+                self.waiting.push((scope, *memory, *port));
+                self.fresh(width)
+            }
+            Source::InstanceOutput { instance, output } => {
+                let driver = netlist.instances[*instance].module.outputs[*output].driver;
+                let child = self.scopes[scope].children[*instance];
+                self.read(child, driver)
+            }
+            Source::Op(op, operands) => {
+                let operands: Vec<Range<usize>> = operands.iter().map(|id| self.read(scope, *id)).collect();
+                match self.wiring(*op, &operands, width) {
+                    Some(bits) => self.keep(&bits),
+                    None => self.cell(*op, operands, width, scope),
+                }
+            }
+        }
+    }
+
+    fn keep(&mut self, bits: &[Bit]) -> Range<usize> {
+        let start = self.words.operands.len();
+        self.words.operands.extend_from_slice(bits);
+        start..start + bits.len()
+    }
+
+    fn fresh(&mut self, width: usize) -> Range<usize> {
+        let start = self.words.operands.len();
+        let first = self.words.bits;
+        self.words.operands.extend((first..first + width).map(|bit| bit as Bit));
+        self.words.bits += width;
+        start..start + width
+    }
+
+    /// The bits of an operator that only moves them.
+    fn wiring(&self, op: Op, operands: &[Range<usize>], width: usize) -> Option<Vec<Bit>> {
+        let a = &self.words.operands[operands[0].clone()];
+        let sign = *a.last()?;
+        let filled = |from: usize, fill: Bit| -> Vec<Bit> {
+            (0..width).map(|bit| a.get(bit + from).copied().unwrap_or(fill)).collect()
+        };
+        Some(match op {
+            Op::Slice { lo, .. } => a[lo as usize..lo as usize + width].to_vec(),
+            Op::ZeroExtend(_) => filled(0, ZERO),
+            Op::SignExtend(_) => filled(0, sign),
+            Op::Shr(n) => filled(n as usize, ZERO),
+            Op::Sar(n) => filled(n as usize, sign),
+            Op::Shl(n) => {
+                (0..width).map(|bit| if bit < n as usize { ZERO } else { a[bit - n as usize] }).collect()
+            }
+            Op::Concat => {
+                operands.iter().rev().flat_map(|place| &self.words.operands[place.clone()]).copied().collect()
+            }
+            _ => return None,
+        })
+    }
+
+    fn cell(&mut self, op: Op, operands: Vec<Range<usize>>, width: usize, scope: usize) -> Range<usize> {
+        let mut key: Vec<Bit> = Vec::new();
+        for place in &operands {
+            key.extend_from_slice(&self.words.operands[place.clone()]);
+            key.push(Bit::MAX);
+        }
+        if let Some(first) = self.same.get(&(op, key.clone())) {
+            let bits: Vec<Bit> = (*first..*first + width as Bit).collect();
+            return self.keep(&bits);
+        }
+        let place = self.fresh(width);
+        let first = self.words.operands[place.start];
+        self.same.insert((op, key), first);
+        let Scope { unit, backwards, .. } = self.scopes[scope];
+        self.words.cells.push(Cell { op, operands, first, width, unit, backwards });
+        place
+    }
+
+    /// Registers and memories that somebody reads, and what these read in turn.
+    fn state(&mut self) {
+        let mut done = 0;
+        loop {
+            if let Some((scope, register)) = self.registers.get(done).copied() {
+                done += 1;
+                self.register(scope, register);
+            } else if let Some((scope, memory, port)) = self.waiting.pop() {
+                self.memory_read(scope, memory, port);
+            } else {
+                return;
+            }
+        }
+    }
+
+    fn register(&mut self, scope: usize, index: usize) {
+        let netlist = self.scopes[scope].netlist;
+        let register = &netlist.registers[index];
+        let place = self.read(scope, register.node);
+        let first = self.words.operands[place.start];
+        let mut updates = Vec::new();
+        for update in &register.updates {
+            let when = update.when.map(|when| self.bit(scope, when));
+            updates.push((when, self.read(scope, update.value)));
+        }
+        let unit = self.scopes[scope].unit;
+        self.words.registers.push(Register {
+            first,
+            width: place.len(),
+            reset: register.reset,
+            updates,
+            unit,
+        });
+    }
+
+    /// A read port that somebody reads; with the first of them its memory and all that is written there.
+    fn memory_read(&mut self, scope: usize, index: usize, port: usize) {
+        let memory = &self.scopes[scope].netlist.memories[index];
+        let place = match self.memories.get(&(scope, index)) {
+            Some(place) => *place,
+            None => {
+                let place = self.words.memories.len();
+                self.memories.insert((scope, index), place);
+                let (words, width, unit) = (memory.words, memory.width as usize, self.scopes[scope].unit);
+                let word = |address| memory.contents.word(memory.width, address);
+                let rom = memory.writes.is_empty().then(|| (0..words).map(word).collect());
+                self.words.memories.push(Memory {
+                    words,
+                    width,
+                    rom,
+                    writes: Vec::new(),
+                    reads: Vec::new(),
+                    unit,
+                });
+                for port in &memory.writes {
+                    let enable = self.bit(scope, port.en);
+                    let (address, data) = (self.read(scope, port.addr), self.read(scope, port.data));
+                    self.words.memories[place].writes.push((enable, address, data));
+                }
+                place
+            }
+        };
+        let port = &memory.reads[port];
+        let (enable, first) = (self.bit(scope, port.en), self.bit(scope, port.node));
+        let address = self.read(scope, port.addr);
+        self.words.memories[place].reads.push((enable, address, first));
+    }
+
+    /// The lowest bit of a node.
+    fn bit(&mut self, scope: usize, node: NodeId) -> Bit {
+        let place = self.read(scope, node);
+        self.words.operands[place.start]
+    }
+}
+
+/// States that are given a flip-flop each; more are counted in binary.
+const ONE_HOT: usize = 32;
+
+/// As `fsm_detect` finds them.
+fn state_machines(words: &Words) -> Vec<StateMachine> {
+    let cells: QuickMap<Bit, &Cell> = words.cells.iter().map(|cell| (cell.first, cell)).collect();
+    let mut found = Vec::new();
+    for (register, of) in words.registers.iter().enumerate().filter(|(_, of)| of.width >= 2) {
+        let own: Vec<Bit> = (of.first..of.first + of.width as Bit).collect();
+        let mut states = Vec::new();
+        states.extend(of.reset);
+        let mut tree = Vec::new();
+        let fits = of
+            .updates
+            .iter()
+            .all(|(_, value)| choice_of_states(words, &cells, words.at(value), &own, &mut states, &mut tree));
+        states.sort_unstable();
+        states.dedup();
+        if fits && (2..=ONE_HOT).contains(&states.len()) && is_only_compared(words, &own, &tree) {
+            found.push(StateMachine { register, states });
+        }
+    }
+    found
+}
+
+/// Whether a word is a constant, the register itself, or a choice of such; its constants and choices are collected.
+fn choice_of_states(
+    words: &Words,
+    cells: &QuickMap<Bit, &Cell>,
+    word: &[Bit],
+    own: &[Bit],
+    states: &mut Vec<u128>,
+    tree: &mut Vec<Bit>,
+) -> bool {
+    if word.iter().all(|bit| *bit <= ONE) {
+        states.push(word.iter().rev().fold(0, |value, bit| value << 1 | u128::from(*bit)));
+        return true;
+    }
+    if word == own || tree.contains(&word[0]) {
+        return true;
+    }
+    let Some(cell) = cells.get(&word[0]).filter(|cell| cell.op == Op::Mux && cell.width == word.len()) else {
+        return false;
+    };
+    if !word.iter().enumerate().all(|(at, bit)| *bit == cell.first + at as Bit) {
+        return false;
+    }
+    tree.push(word[0]);
+    cell.operands[1..].iter().all(|place| choice_of_states(words, cells, words.at(place), own, states, tree))
+}
+
+/// Whether nobody reads any bit of the register but comparisons of all of it with constants, and its own choices.
+fn is_only_compared(words: &Words, own: &[Bit], tree: &[Bit]) -> bool {
+    let reads = |bits: &[Bit]| bits.iter().any(|bit| own.contains(bit));
+    let cell = |cell: &Cell| {
+        let [a, b] = match &cell.operands[..] {
+            [a, b] => [words.at(a), words.at(b)],
+            operands => {
+                return tree.contains(&cell.first) || !operands.iter().any(|place| reads(words.at(place)));
+            }
+        };
+        let fixed = |word: &[Bit]| word.iter().all(|bit| *bit <= ONE);
+        let compared =
+            matches!(cell.op, Op::Eq | Op::Ne) && ((a == own && fixed(b)) || (b == own && fixed(a)));
+        compared || !(reads(a) || reads(b))
+    };
+    let register = |of: &Register| {
+        of.first == own[0]
+            || !of.updates.iter().any(|(when, value)| reads(when.as_slice()) || reads(words.at(value)))
+    };
+    let memory = |of: &Memory| {
+        let written = of.writes.iter().any(|(enable, address, data)| {
+            reads(&[*enable]) || reads(words.at(address)) || reads(words.at(data))
+        });
+        !written && !of.reads.iter().any(|(enable, address, _)| reads(&[*enable]) || reads(words.at(address)))
+    };
+    !reads(&words.outputs)
+        && words.cells.iter().all(cell)
+        && words.registers.iter().all(register)
+        && words.memories.iter().all(memory)
+}
