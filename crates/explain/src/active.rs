@@ -16,6 +16,8 @@ pub(crate) struct InPoly {
     id: usize,
     /// The line's active edges in the order of their columns.
     active: Vec<Active>,
+    /// Of each pair with a pixel its first column, and the first no longer inside.
+    pairs: Vec<[i32; 2]>,
     /// First column, and first no longer inside, of the pair around the pixel.
     pair: Option<[i32; 2]>,
 }
@@ -52,10 +54,11 @@ pub(crate) fn in_poly(frame: &Frame, machine: &Plan, (x, y): (u32, u32)) -> Vec<
             let mut active: Vec<Active> =
                 bands.iter().flatten().flat_map(|token| edges(machine, token, y)).collect();
             active.sort_by_key(|edge| edge.c); // stable
-            let mut pairs = active.chunks_exact(2).map(|pair| [pair[0].c, pair[1].c]);
-            let pair = pairs.find(|[left, right]| (*left..*right).contains(&(x as i32)));
+            let pairs = active.chunks_exact(2).map(|pair| [pair[0].c, pair[1].c]);
+            let pairs: Vec<[i32; 2]> = pairs.filter(|[left, right]| left < right).collect();
+            let pair = pairs.iter().copied().find(|[left, right]| (*left..*right).contains(&(x as i32)));
             if !active.is_empty() {
-                found.push(InPoly { id, active, pair });
+                found.push(InPoly { id, active, pairs, pair });
             }
         }
     }
@@ -102,6 +105,8 @@ pub(crate) fn text(of: &InPoly, (x, y): (u32, u32)) -> String {
     for Active { c, r, q, f, m, lines_left } in &of.active {
         _ = writeln!(page, "{c:>8}{r:>10}{q:>8}{f:>10}{m:>10}  {lines_left:>10}");
     }
+    let pairs: Vec<String> = of.pairs.iter().map(|[left, right]| format!("{left} to {right}")).collect();
+    _ = writeln!(page, "pairs: {}", if pairs.is_empty() { "none".to_owned() } else { pairs.join(", ") });
     match of.pair {
         Some([left, right]) => _ = writeln!(page, "pixel {x} lies in the pair {left} to {right}"),
         None => _ = writeln!(page, "pixel {x} lies in no pair"),

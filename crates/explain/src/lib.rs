@@ -39,6 +39,7 @@ use edgewalk_golden::polygon::{EdgeTable, Grid, fragments as polygon_fragments};
 use edgewalk_golden::{Drawing, Order, ShadowMaps, fragments, line_fragments};
 use edgewalk_host::draw::{Pixel, bands, draw_frame};
 use edgewalk_host::extra;
+use edgewalk_host::faces::parts;
 use edgewalk_host::port::{PortFrame, to_port};
 use edgewalk_host::raster::golden_drawing;
 use edgewalk_host::shade::apart;
@@ -50,6 +51,7 @@ use layers::{Layer, layers};
 use serde::Serialize;
 use shaded::{ShadedPixel, leftward, shaded};
 use shadowed::{ShadowedPixel, shadowed};
+use std::ops::Range;
 use terms::{LitPoint, lit_point};
 
 /// Side of the shadow maps, texels.
@@ -194,10 +196,11 @@ pub fn explain(input: &Input, (x, y): (u32, u32)) -> Result<Explanation> {
         extra: own(machine, |channel| picture.extra[channel][at]),
         stored,
         not_stored,
-        light: match (seen, &scene) {
-            (Some(_), Some((scene, surface))) => {
-                let place = order.map_or(id as usize, |order| order.order[id as usize]);
-                light(scene, surface, place, machine, (x, y))
+        light: match (usize::try_from(id), &scene) {
+            (Ok(id), Some((scene, surface))) => {
+                let places =
+                    order.map_or_else(|| on_surface(frame, id), |order| order.order[id]..order.order[id] + 1);
+                places.into_iter().find_map(|place| light(scene, surface, place, machine, (x, y)))
             }
             _ => None,
         },
@@ -228,6 +231,12 @@ impl Explanation {
     pub fn text(&self, color_bits: u32) -> String {
         page::text(self, color_bits)
     }
+}
+
+/// The active edges that POLY has on the pixel's line, of each polygon that it draws, as text.
+#[must_use]
+pub fn active_edges(frame: &Frame, machine: &Plan, pixel: (u32, u32)) -> String {
+    in_poly(frame, machine, pixel).iter().map(|polygon| active::text(polygon, pixel)).collect()
 }
 
 /// Fragments of the whole picture.
@@ -304,6 +313,22 @@ fn lights(
     let frames = edgewalk_host::lights::frames(scene, surface, machine)?;
     let each = frames.iter().map(|frame| shadowed(frame, machine, id, pixel, z));
     Ok(each.collect::<Result<Vec<_>>>()?.into_iter().flatten().collect())
+}
+
+/// The triangles of a scene's surface that this primitive of its frame is made of.
+fn on_surface(frame: &Frame, id: usize) -> Range<usize> {
+    let sizes: Vec<usize> = frame
+        .primitives()
+        .iter()
+        .take(id + 1)
+        .map(|primitive| match primitive {
+            Primitive::Polygon(polygon) => parts(polygon),
+            Primitive::Triangle(_) => 1,
+            Primitive::Line(_) => 0, // along its sides
+        })
+        .collect();
+    let end: usize = sizes.iter().sum();
+    end - sizes.last().copied().unwrap_or(0)..end
 }
 
 fn light(scene: &Scene, surface: &Surface, id: usize, machine: &Plan, pixel: (u32, u32)) -> Option<LitPoint> {

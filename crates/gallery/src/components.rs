@@ -49,13 +49,29 @@ pub(crate) fn components() -> Result<Exhibit> {
             }
         }
     }
+    let (printed, cut) = (highlight(|cosine| cosine), highlight(|cosine| cosine.max(0.0)));
+    for (name, curve) in [("as printed", &printed), ("cut first", &cut)] {
+        let last = curve.points.last().map_or(0.0, |(_, value)| *value);
+        figures.push(figure(
+            format!("highlight of (7.12), n = 20, N at a right angle to H, {name}"),
+            last,
+            3,
+        ));
+    }
+    views.push(View::drawing(
+        "highlight",
+        "max{[2(N·H)² - 1]^20, 0} as printed, and with the cosine cut first",
+        plot("degrees between N and H", "part of k_s I", &[printed, cut]),
+    ));
     Ok(Exhibit {
         name: "components",
         title: "The components of a light, and k_s",
         cause: "Ambient light is the same everywhere, diffuse light bends little over a polygon, a highlight much (fig. 7.2). So \
                 what can be interpolated linearly depends on k_s beside k_d and k_a: matte, Gouraud shading errs least, in the \
                 mean and at most, and both errors grow with k_s. Constant shading is far off whatever k_s is: the sphere is no \
-                polyhedron, which is the first of its conditions.",
+                polyhedron, which is the first of its conditions. The highlight of (7.12) is max{[2(N·H)² - 1]^n, 0}: as printed, an \
+                even n makes a second highlight where N is nearly at a right angle to H. Here the cosine is cut to 0 before the \
+                power.",
         figures,
         views,
     })
@@ -76,4 +92,15 @@ fn bend(line: &Series) -> f64 {
     let margin = line.points.len() / 8;
     let inner = &line.points[margin..line.points.len() - margin];
     inner.windows(3).map(|w| (w[2].1 - 2.0 * w[1].1 + w[0].1).abs()).fold(0.0, f64::max)
+}
+
+/// The highlight by (7.12) for n = 20; what becomes of 2(N·H)² - 1 before the power.
+fn highlight(before: fn(f64) -> f64) -> Series {
+    let at = |angle: u32| {
+        let cosine = f64::from(angle).to_radians().cos();
+        (f64::from(angle), before(2.0 * cosine * cosine - 1.0).powi(20).max(0.0))
+    };
+    let label = if before(-1.0) < 0.0 { "as printed" } else { "cut first" };
+    // Behind 90 degrees N·H itself is below 0, and nothing is lit.
+    Series { label, points: (0..=90).map(at).collect() }
 }

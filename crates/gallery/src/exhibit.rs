@@ -42,6 +42,8 @@ pub enum Image {
     },
     /// An SVG file.
     Drawing(String),
+    /// Lines of text, as a command prints them.
+    Text(String),
 }
 
 /// Pixels a line of the pictures.
@@ -70,6 +72,11 @@ impl View {
     /// Of a drawing.
     pub(crate) fn drawing(name: &'static str, caption: impl Into<String>, svg: String) -> Self {
         Self { name, caption: caption.into(), image: Image::Drawing(svg) }
+    }
+
+    /// Of what a command prints.
+    pub(crate) fn text(name: &'static str, caption: impl Into<String>, text: String) -> Self {
+        Self { name, caption: caption.into(), image: Image::Text(text) }
     }
 }
 

@@ -19,6 +19,7 @@ mod machine;
 
 mod worked_example;
 mod polygons;
+mod walked_polygons;
 mod lights;
 mod systems;
 mod fast_phong;
@@ -46,9 +47,10 @@ pub use exhibit::{Exhibit, Image, View};
 pub type Maker = fn() -> anyhow::Result<Exhibit>;
 
 /// All of them, in the order in which they are shown, by the names of their files.
-pub const EXHIBITS: [(&str, Maker); 22] = [
-    ("worked-example", || Ok(worked_example::worked_example())),
+pub const EXHIBITS: [(&str, Maker); 23] = [
+    ("worked-example", worked_example::worked_example),
     ("polygons", polygons::polygons),
+    ("walked-polygons", walked_polygons::walked_polygons),
     ("vertex-rule", || Ok(vertex_rule::vertex_rule())),
     ("textbook-fill", || Ok(textbook_fill::textbook_fill())),
     ("components", components::components),

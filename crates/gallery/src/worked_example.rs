@@ -2,13 +2,16 @@
 
 use crate::exhibit::{Exhibit, FILL, HEIGHT, View, WIDTH, figure};
 use crate::plot::{Series, plot};
+use anyhow::{Result, anyhow};
+use edgewalk_explain::active_edges;
 use edgewalk_golden::draw;
-use edgewalk_scene::{Frame, Triangle, Vertex};
+use edgewalk_machine::Machine;
+use edgewalk_scene::{Frame, Polygon, Triangle, Vertex};
 
 /// x, y and intensity: the edges cross line 15 at x = 10.5 and x = 20.
 const CORNERS: [[f64; 3]; 3] = [[15.25, 10.0, 0.9], [5.75, 20.0, 0.2], [34.25, 30.0, 0.3]];
 
-pub(crate) fn worked_example() -> Exhibit {
+pub(crate) fn worked_example() -> Result<Exhibit> {
     // Pixels stand at whole coordinates in the example, at halves here.
     let vertex = |[x, y, v]: [f64; 3]| Vertex {
         x: x + 0.5,
@@ -27,12 +30,17 @@ pub(crate) fn worked_example() -> Exhibit {
     let drawn: Vec<(f64, f64)> = (11..20).map(|x| (f64::from(x), at(x, 15))).collect();
     let by_hand = (0..=10).map(|k| (10.5 + f64::from(k), ends[0] + 0.02 * f64::from(k))).collect();
     let slope = at(12, 15) - at(11, 15);
-    Exhibit {
+    let polygon = Polygon { contours: vec![CORNERS.map(vertex).to_vec()], after: 0 };
+    let machine = Machine::preset("polygon").ok_or_else(|| anyhow!("no preset is called polygon"))?;
+    let plan = machine.with(|machine| (machine.width, machine.height) = (WIDTH, HEIGHT)).plan()?;
+    let walked = Frame { polygons: vec![polygon], ..Frame::new(WIDTH, HEIGHT) };
+    Ok(Exhibit {
         name: "worked-example",
         title: "The worked example (S17)",
         cause: "Intensities 0.9, 0.2, 0.3 at the lines 10, 20, 30. On line 15 the edges have 0.55 at x = 10.5 and 0.75 at \
                 x = 20. The lecture takes 20 - 10.5 for ten steps of 0.02; they are 9.5, and the step is 0.2 / 9.5. It also \
-                prints 0.15 for the last value: a misprint, as it interpolates to 0.75.",
+                prints 0.15 for the last value: a misprint, as it interpolates to 0.75. A machine with POLY keeps the x of each active \
+                edge as C - R/M.",
         figures: vec![
             figure("step a line from 10 to 20", step(0, 1), 2),
             figure("step a line from 10 to 30", step(0, 2), 2),
@@ -42,14 +50,24 @@ pub(crate) fn worked_example() -> Exhibit {
             figure("step a pixel, in ten steps", (ends[1] - ends[0]) / 10.0, 3),
             figure("step a pixel, as drawn", slope, 6),
         ],
-        views: vec![View::drawing(
-            "line-15",
-            "Line 15",
-            plot(
-                "x",
-                "intensity",
-                &[Series { label: "drawn", points: drawn }, Series { label: "the lecture", points: by_hand }],
+        views: vec![
+            View::drawing(
+                "line-15",
+                "Line 15",
+                plot(
+                    "x",
+                    "intensity",
+                    &[
+                        Series { label: "drawn", points: drawn },
+                        Series { label: "the lecture", points: by_hand },
+                    ],
+                ),
             ),
-        )],
-    }
+            View::text(
+                "active-edges",
+                "The active edges of the machine on line 15, as `edgewalk explain` prints them:",
+                active_edges(&walked, &plan, (12, 15)),
+            ),
+        ],
+    })
 }

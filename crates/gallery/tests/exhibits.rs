@@ -20,7 +20,7 @@ fn picture<'a>(exhibit: &'a Exhibit, name: &str) -> &'a [[f64; 3]] {
     let view = exhibit.views.iter().find(|view| view.name == name).unwrap();
     match &view.image {
         Image::Colors { rgb, .. } => rgb,
-        Image::Drawing(_) => panic!("{name} is a drawing"),
+        Image::Drawing(_) | Image::Text(_) => panic!("{name} is no picture"),
     }
 }
 
@@ -41,6 +41,7 @@ fn every_exhibit_has_a_picture_and_a_figure() {
                     assert!(rgb.iter().any(|c| c != &rgb[0]), "{name} {}: one colour", view.name);
                 }
                 Image::Drawing(svg) => assert!(svg.contains("polyline") && !svg.contains("NaN")),
+                Image::Text(text) => assert!(text.lines().count() > 1, "{name} {}", view.name),
             }
         }
         checked += 1;
@@ -180,6 +181,69 @@ fn polygons_have_their_areas() {
         assert!((value(pixels) - value(area)).abs() < 0.005 * value(area), "{:?}", polygons.figures);
     }
     assert_eq!(value(0), 6.0);
+}
+
+/// The pixels of line 62 that are no background, in golden's picture, are those of the pairs that are printed.
+#[test]
+fn the_machine_walks_polygons_as_golden_fills_them() {
+    let walked = exhibit("walked-polygons");
+    assert_eq!(figure(&walked, "polygons that POLY walks"), 5.0);
+    assert_eq!(figure(&walked, "triangles that the bent octagon"), 6.0);
+    assert_eq!(figure(&walked, "pixels whose coverage differs"), 0.0);
+    assert!(figure(&walked, "pixels covered") > 25_000.0);
+    for of in ["depth", "colour"] {
+        let error = figure(&walked, &format!("largest {of} error"));
+        let bound = figure(&walked, &format!("proved bound of the {of} error"));
+        assert!(error > 0.3 && error <= bound && bound < 80.0, "{of}: {error} of {bound}");
+    }
+    assert!(walked.figures.iter().any(|(name, value)| name.starts_with("verdict") && value == "pass"));
+    let view = walked.views.iter().find(|view| view.name == "active-edges").unwrap();
+    let Image::Text(text) = &view.image else { panic!("no text") };
+    let mut inside = [false; 320];
+    for pairs in text.lines().filter_map(|line| line.strip_prefix("pairs: ")) {
+        for pair in pairs.split(", ") {
+            let (left, right) = pair.split_once(" to ").unwrap();
+            inside[left.parse::<usize>().unwrap()..right.parse::<usize>().unwrap()].fill(true);
+        }
+    }
+    let line = &picture(&walked, "golden")[62 * 320..63 * 320];
+    let filled: Vec<bool> = line.iter().map(|rgb| *rgb != picture(&walked, "golden")[0]).collect();
+    assert_eq!(filled, inside);
+    assert_eq!(inside.windows(2).filter(|pair| pair[0] != pair[1]).count(), 12, "one, three and two spans");
+}
+
+/// 0.4 of a pane's own light, beside half of it.
+#[test]
+fn plain_coefficients_are_corrected_ones_by_another_scale() {
+    let glass = exhibit("glass");
+    assert!(figure(&glass, "a pane of k_d 0.4") > 20.0);
+    assert_eq!(figure(&glass, "the same with k_d (1 - k_t)"), 0.0);
+}
+
+#[test]
+fn an_even_power_lights_a_right_angle_as_printed() {
+    let components = exhibit("components");
+    let of = |name: &str| {
+        figure(&components, &format!("highlight of (7.12), n = 20, N at a right angle to H, {name}"))
+    };
+    assert_eq!((of("as printed"), of("cut first")), (1.0, 0.0));
+}
+
+/// C - R/M of the machine's active edges on line 15 are the places of the notes.
+#[test]
+fn the_machine_walks_the_worked_example() {
+    let worked = exhibit("worked-example");
+    let view = worked.views.iter().find(|view| view.name == "active-edges").unwrap();
+    let Image::Text(text) = &view.image else { panic!("no text") };
+    let rows = text
+        .lines()
+        .map(|line| line.split_whitespace().map(str::parse::<f64>).collect::<Result<Vec<_>, _>>());
+    let places: Vec<f64> = rows
+        .filter_map(Result::ok)
+        .filter(|row| row.len() == 6)
+        .map(|row| row[0] - row[1] / row[4])
+        .collect();
+    assert_eq!(places, [10.5, 20.0]);
 }
 
 #[test]

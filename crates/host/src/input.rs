@@ -1,6 +1,7 @@
 //! What is to be drawn on one machine after another: read once, made into a frame for each screen.
 
 use crate::extra;
+use crate::faces::joined;
 use crate::needs::{self, Need};
 use crate::polygon::{is_for_poly, of_pieces, pieces};
 use crate::port::sent;
@@ -129,11 +130,13 @@ impl Input {
     }
 }
 
-/// The scene on the machine's screen, clipped to its guard band.
+/// The scene on the machine's screen, clipped to its guard band, its faces as POLY draws them.
 fn on_screen(scene: &Scene, shading: Shaded, machine: &Plan) -> Frame {
     let surface = scene.surface(machine.width, machine.height, guard_band(machine));
     match shading {
-        Shaded::Corners(system) => edgewalk_golden::frame(scene, &surface, system),
+        Shaded::Corners(system) => {
+            joined(edgewalk_golden::frame(scene, &surface, system), scene, &surface, machine)
+        }
         Shaded::Pixels(method) => scene.pixel_frame(&surface, method),
     }
 }

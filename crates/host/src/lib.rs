@@ -27,6 +27,8 @@ pub mod shade;
 pub mod needs;
 pub mod vertices;
 pub mod polygon;
+mod misplaced;
+pub mod faces;
 pub mod port;
 pub mod input;
 pub mod lights;

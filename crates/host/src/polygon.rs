@@ -5,11 +5,12 @@
 //!                                               └─ none does ─> triangles, where its edges do not cross
 //! ```
 
+use crate::misplaced::misplaced;
 use crate::vertices::{guard_band, port_triangle};
 use anyhow::{Context as _, Result, anyhow};
 use edgewalk_machine::key::Domain;
 use edgewalk_machine::keys::KEYS;
-use edgewalk_machine::{Channel, Kind, Plan, PortVertex, Window};
+use edgewalk_machine::{COLOURS, Channel, Kind, Plan, PortVertex, Window};
 use edgewalk_scene::{
     Blending, Frame, Host, Line, Polygon, Primitive, ShadeMode, State, Triangle, Vertex, contour_in_band,
 };
@@ -103,9 +104,10 @@ fn of_polygon(
             .map_or(("z", 0.0), |(channel, bend)| (channel.name, bend.defect));
         anyhow!(
             "polygon at vertex {} {}: its edges cross and no plane holds its {name} (largest defect {most:.3} LSB); \
-             permitted: values in a plane, or edges that do not cross",
+             permitted: values in a plane{}, or edges that do not cross",
             crossing.x,
-            crossing.y
+            crossing.y,
+            if ["r", "g", "b"].contains(&name) { ", polygon.values = bilinear" } else { "" }
         )
     })?;
     Ok(parts.into_iter().map(Piece::Triangle).collect())
@@ -173,14 +175,17 @@ pub struct Bend {
     pub is_held: bool,
 }
 
-/// Of each channel; nothing is far from a plane of a polygon without area, which draws nothing.
+/// Of each channel; bilinear colours are of no plane; nothing is far from a plane of a polygon without area, which draws nothing.
 #[must_use]
 pub fn bends(contours: &[Vec<PortVertex>], machine: &Plan) -> Vec<Bend> {
     let vertices: Vec<PortVertex> = contours.concat();
     let flat = Bend { defect: 0.0, is_held: true };
     let Some(plane) = machine.far_apart(&vertices) else { return vec![flat; machine.channels().len()] };
-    let channels = machine.channels().iter().enumerate();
-    channels.map(|(i, channel)| bend(i, channel, &plane, &vertices, machine).unwrap_or(flat)).collect()
+    let mut bends = vec![flat; machine.channels().len()];
+    for (i, channel) in machine.planes() {
+        bends[i] = bend(i, channel, &plane, &vertices, machine).unwrap_or(flat);
+    }
+    bends
 }
 
 /// In one channel; none of a plane without area.
@@ -226,26 +231,41 @@ fn bend(
 }
 
 /// The largest defect of a frame's polygons, LSB, a channel of the machine, of each colour that of all three: pictures of planes and of values along the edges differ by
-/// no more.
+/// no more. Of bilinear colours what edges beside their places make of them.
 #[must_use]
 pub fn defects(frame: &Frame, machine: &Plan) -> Vec<f64> {
     let mut most = vec![0.0f64; machine.channels().len()];
-    if !is_for_poly(frame, machine) {
+    let (planes, bilinear) = (is_for_poly(frame, machine), machine.polygon.is_bilinear());
+    if !planes && !bilinear {
         return most;
     }
+    let beside = |most: &mut Vec<f64>, contours: &[Vec<Vertex>]| {
+        if bilinear {
+            most[COLOURS.start] = most[COLOURS.start].max(misplaced(contours, machine));
+        }
+    };
     let primitives = frame.primitives();
     for pass in frame.passes() {
         for place in pass.primitives.clone().take_while(|place| *place < primitives.len()) {
-            let Primitive::Polygon(polygon) = primitives[place] else { continue };
+            let polygon = match primitives[place] {
+                Primitive::Polygon(polygon) if planes => polygon,
+                Primitive::Triangle(Triangle(vertices)) if frame.mode == ShadeMode::Gouraud => {
+                    beside(&mut most, &[vertices.to_vec()]);
+                    continue;
+                }
+                // One colour, or a line, whose colours are those of its one edge; or what the port takes as triangles.
+                _ => continue,
+            };
             let inside = in_band(polygon, frame, guard_band(machine), &mut Host::default());
             let Ok(contours) = on_port(place, &inside, frame, &pass.state, machine) else { continue };
+            beside(&mut most, &inside.contours);
             for (most, bend) in most.iter_mut().zip(bends(&contours, machine)) {
                 *most = most.max(bend.defect);
             }
         }
     }
-    let of_colours = most[1..4].iter().copied().fold(0.0, f64::max);
-    most[1..4].fill(of_colours);
+    let of_colours = most[COLOURS].iter().copied().fold(0.0, f64::max);
+    most[COLOURS].fill(of_colours);
     most
 }
 

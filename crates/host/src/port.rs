@@ -263,7 +263,7 @@ fn port_line(
     Ok(machine.windowed(machine.line([a, b])))
 }
 
-/// The rules of a pass as a machine has them that meets the [needs](crate::needs) of the frame.
+/// The rules of a pass as a machine has them that meets the [`needs`] of the frame.
 ///
 /// # Errors
 /// The frame is shaded at each pixel, and the machine cannot do so.

@@ -57,7 +57,8 @@ pub struct Cycles {
     pub path: Option<Path>,
     /// What the units held, where a model counted it.
     pub held: Option<Held>,
-    spent: [u64; Activity::ALL.len()],
+    /// The causes, and what passed at the memories' ports; the other counters may be 0.
+    pub counters: Counters,
 }
 
 /// What the units held, summed over the cycles.
@@ -77,14 +78,14 @@ impl Cycles {
     pub fn of(counters: &Counters, path: Option<Path>) -> Self {
         let Counters { setup_clocks, queued_spans, inflight, .. } = *counters;
         let held = Held { setup: setup_clocks, spans: queued_spans, fragments: inflight };
-        Cycles { total: counters.cycles, path, held: Some(held), spent: counters.activity }
+        Cycles { total: counters.cycles, path, held: Some(held), counters: counters.clone() }
     }
 
     /// The cycles of two runs, one after the other.
     #[must_use]
     pub fn and(mut self, other: Cycles) -> Self {
         self.total += other.total;
-        self.spent.iter_mut().zip(other.spent).for_each(|(own, other)| *own += other);
+        self.counters = self.counters.and(&other.counters);
         self.held = None;
         self
     }
@@ -92,13 +93,13 @@ impl Cycles {
     /// How many cycles have no cause, or more than one.
     #[must_use]
     pub fn unexplained(&self) -> u64 {
-        self.total.abs_diff(self.spent.iter().sum())
+        self.total.abs_diff(self.counters.activity.iter().sum())
     }
 
     /// Cycles spent on this.
     #[must_use]
     pub fn spent(&self, activity: Activity) -> u64 {
-        self.spent[activity as usize]
+        self.counters.spent(activity)
     }
 }
 

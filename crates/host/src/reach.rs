@@ -2,7 +2,7 @@
 
 use crate::port::PortFrame;
 use anyhow::{Result, anyhow};
-use edgewalk_machine::{Channel, ErrorBudget, Fill, Hazard, Machine, Plan, PortVertex, Role};
+use edgewalk_machine::{Channel, ErrorBudget, Fill, Hazard, Machine, Plan, PortVertex, Role, Window};
 use edgewalk_model::DrawState;
 use edgewalk_model::fast::{Passage, Renderer};
 use edgewalk_numerics::Steps;
@@ -22,7 +22,8 @@ impl Reach {
     /// Of the frame that went through the units; none where nothing was drawn.
     #[must_use]
     pub fn of(machine: &Plan, ids: &[i32], passage: &Passage) -> Option<Reach> {
-        let farthest = passage.fates().iter().zip(ids).filter_map(|(fate, id)| Some((fate.farthest?, *id)));
+        let drawn = passage.fates().iter().filter(|fate| fate.ends);
+        let farthest = drawn.zip(ids).filter_map(|(fate, id)| Some((fate.farthest?, *id)));
         let ((pixel, [lines, columns]), triangle) =
             farthest.max_by_key(|((_, [lines, columns]), _)| lines + columns)?;
         let pixel = (pixel % machine.width, pixel / machine.width);
@@ -32,7 +33,7 @@ impl Reach {
     /// What is proved of a channel's outputs for no more additions than these; none where they may wrap.
     #[must_use]
     pub fn budget(&self, machine: &Plan, channel: &Channel) -> Option<ErrorBudget> {
-        let budget = channel.error_budget(self.steps);
+        let budget = machine.budget_behind(channel, self.steps);
         (machine.fill == Fill::Exact && budget.holds()).then_some(budget)
     }
 
@@ -61,23 +62,18 @@ fn as_untimed(keys: &mut Machine) {
 /// # Errors
 /// Vertices of another machine.
 pub fn geometry(machine: &Plan, port: &PortFrame) -> Result<Passage> {
-    if machine.polygon.is_there() {
-        return Err(anyhow!(
-            "polygon.edges = {}: how far values are stepped is known of EDGE only; permitted: polygon.edges = 0",
-            machine.polygon.edges
-        ));
-    }
     let bare = Machine::default();
     let bare = machine.with(|keys| {
         (keys.shade, keys.shadow, keys.dither, keys.blend) =
             (bare.shade, bare.shadow, bare.dither, bare.blend);
         (keys.extra, keys.adders) = (bare.extra, keys.adders.min(bare.adders));
+        keys.polygon.values = bare.polygon.values; // where a frame is stepped does not follow its colours
         as_untimed(keys);
     });
     let plan = bare.plan()?;
     let of_plan = |triangle: &[PortVertex; 3]| {
         let vertices = triangle.map(|v| plan.raw_vertex(v.x(), v.y(), v.values()));
-        plan.with_role(vertices, Role::of(triangle))
+        plan.with_window(plan.with_role(vertices, Role::of(triangle)), Window::of(triangle))
     };
     let triangles = port.triangles.iter().map(of_plan);
     // The rules decide what is stored, not where it is stepped: those of the first pass serve.
@@ -94,12 +90,12 @@ pub fn walked(machine: &Plan, port: &PortFrame) -> Result<Option<Reach>> {
     Ok(Reach::of(machine, &port.ids, &geometry(machine, port)?))
 }
 
-/// How far the values of these triangles are stepped; none where the frame has several passes, or the machine POLY.
+/// How far the values of these triangles are stepped; none where the frame has several passes.
 ///
 /// # Errors
 /// Vertices of another machine.
 pub fn reach(machine: &Plan, port: &PortFrame) -> Result<Option<Reach>> {
-    if port.passes.len() != 1 || machine.polygon.is_there() {
+    if port.passes.len() != 1 {
         return Ok(None);
     }
     walked(machine, port)

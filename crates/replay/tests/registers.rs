@@ -146,9 +146,15 @@ fn random_triangle(plan: &Plan, rng: &mut impl Rng) -> [PortVertex; 3] {
     })
 }
 
+/// What POLY is sent of a polygon with so many corners, which mostly crosses itself.
+fn random_polygon(plan: &Plan, corners: usize, rng: &mut impl Rng) -> Vec<[PortVertex; 3]> {
+    let contour: Vec<PortVertex> = (0..corners).map(|_| random_triangle(plan, rng)[0]).collect();
+    plan.polygon(std::slice::from_ref(&contour), plan.window_from(&contour))
+}
+
 #[test]
 fn registers_of_the_model_are_those_of_the_netlist() {
-    let settings: [&[(&str, &str)]; 15] = [
+    let settings: [&[(&str, &str)]; 17] = [
         &[],
         &[("interpolator.adders", "1"), ("interpolator.segments", "2")],
         &[("memory.hazard", "drain"), ("memory.latency", "8"), ("fifo.inflight", "8")],
@@ -180,6 +186,8 @@ fn registers_of_the_model_are_those_of_the_netlist() {
             ("term.record_bits", "4"),
         ],
         &[("shade.kind", "phong"), ("shade.light", "positional"), ("term.record_bits", "4")],
+        &[("polygon.edges", "8")],
+        &[("polygon.edges", "16"), ("polygon.lines", "yes"), ("edge.kind", "slope")],
     ];
     let mut compared = BTreeMap::<String, u64>::new();
     for (number, settings) in settings.iter().enumerate() {
@@ -190,7 +198,12 @@ fn registers_of_the_model_are_those_of_the_netlist() {
         }
         let plan = machine.plan().expect("can be built");
         let mut rng = Pcg64Mcg::seed_from_u64(number as u64);
-        let triangles: Vec<_> = (0..12).map(|_| random_triangle(&plan, &mut rng)).collect();
+        let mut triangles: Vec<_> = (0..12).map(|_| random_triangle(&plan, &mut rng)).collect();
+        if plan.polygon.is_there() {
+            triangles = triangles.into_iter().map(|triangle| plan.windowed(triangle)).collect();
+            // The last ones have more edges than the table, and are refused.
+            (3..20).for_each(|corners| triangles.extend(random_polygon(&plan, corners, &mut rng)));
+        }
         let before: u64 = compared.values().sum();
         for waits in [0, 85] {
             for (path, values) in compare(&plan, &triangles, waits) {

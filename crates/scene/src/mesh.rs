@@ -175,6 +175,18 @@ impl Mesh {
         &self.face_data
     }
 
+    /// For each face the number of the polygon that it is a part of: files have faces of many corners, which are kept as
+    /// triangles that follow each other.
+    pub fn polygons(&self) -> Vec<u32> {
+        let begins = self.face_data.iter().map(|data| u32::from(!data.continues));
+        begins
+            .scan(0, |number, begins| {
+                *number += begins;
+                Some(*number)
+            })
+            .collect()
+    }
+
     /// The textures.
     pub fn textures(&self) -> &[Texture] {
         &self.textures

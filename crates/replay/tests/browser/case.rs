@@ -180,6 +180,19 @@ impl Case {
         }
     }
 
+    /// A machine with POLY that draws the polygon of the slides, four pixels to one of theirs.
+    pub fn polygon() -> Case {
+        let plan = machine(Machine::default(), &[("polygon.edges", "8")]);
+        let corner = |[x, y]: [f64; 2]| {
+            let values = [0.5, x / 16.0, 1.0 - y / 16.0, 0.6];
+            plan.port_vertex(4.0 * x + 1.0, 4.0 * y, &values).expect("on the screen")
+        };
+        let contour =
+            [[2.0, 3.0], [7.0, 1.0], [13.0, 5.0], [13.0, 11.0], [7.0, 7.0], [2.0, 9.0]].map(corner).to_vec();
+        let triangles = plan.polygon(std::slice::from_ref(&contour), plan.window_from(&contour));
+        Case { triangles, ..Case::of("polygon", plan) }
+    }
+
     pub fn recording(&self, window: Window) -> Recording {
         let rules = Rules { passes: &self.passes, maps: &self.maps, shading: &self.shading };
         record_passes(&self.plan, &self.triangles, &rules, self.stalls, window).expect("recorded")
@@ -188,7 +201,7 @@ impl Case {
     pub fn replay<'a>(&'a self, recording: &'a Recording) -> Replay<'a> {
         Replay {
             plan: &self.plan,
-            scene: "icosahedron",
+            scene: if self.plan.polygon.is_there() { "polygon" } else { "icosahedron" },
             triangles: &self.triangles,
             of: self.triangles.len(),
             recording,

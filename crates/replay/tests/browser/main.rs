@@ -198,8 +198,8 @@ fn a_replay_of_another_version_is_refused_in_words() {
 #[test]
 fn pictures_for_the_documentation() {
     let docs = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs");
-    let wanted: [PathBuf; 4] =
-        ["replay", "replay-drain", "replay-dark", "lesson"].map(|name| docs.join(format!("{name}.png")));
+    let wanted: [PathBuf; 5] = ["replay", "replay-drain", "replay-dark", "replay-poly", "lesson"]
+        .map(|name| docs.join(format!("{name}.png")));
     if std::env::var_os("EDGEWALK_BLESS").is_some() {
         let mut browser = Browser::start();
         let cases = seven();
@@ -207,6 +207,7 @@ fn pictures_for_the_documentation() {
             (cases[0].html(), "#c=1503&px=31,20", "light"),
             (cases[2].html(), "#c=1200&px=31,20", "light"),
             (cases[3].html(), "#c=4003&px=31,20", "dark"),
+            (Case::polygon().html(), "#c=720&px=20,30", "light"),
             (lesson_page(Machine::default()), "", "light"),
         ]
         .into_iter()

@@ -160,7 +160,7 @@ impl Build<'_> {
                     }
                     _ => None,
                 },
-                group: 0,
+                ..FaceData::default()
             });
         }
         self.positions.extend(corners.iter().map(|corner| to_world.transform_point3(*corner)));

@@ -105,7 +105,7 @@ impl Obj {
             return Err(place.fault("f", found.as_bytes(), "permitted: at least 3 corners").into());
         }
         let positions: Vec<_> = corners.iter().map(|c| self.positions[c.position as usize]).collect();
-        for part in triangles(&positions) {
+        for (number, part) in triangles(&positions).into_iter().enumerate() {
             let corners = part.map(|k| &corners[k]);
             self.faces.push(Face { corners: corners.map(|corner| corner.position), material: self.material });
             let texture = corners.map(|corner| corner.texture.map(|place| self.texture[place as usize]));
@@ -114,6 +114,7 @@ impl Obj {
                 texture: all(texture),
                 normals: all(normals).filter(|normals| !normals.contains(&DVec3::ZERO)),
                 group: self.group,
+                continues: number > 0,
             });
         }
         Ok(())

@@ -86,11 +86,11 @@ fn listed(table: &Table) -> Result<Mesh, InputError> {
             return Err(table.fault("faces", format!("{} places", corners.len()), permitted));
         }
         let places: Vec<_> = corners.iter().map(|corner| positions[*corner as usize]).collect();
-        for part in mesh::triangles(&places) {
+        for (number, part) in mesh::triangles(&places).into_iter().enumerate() {
             let corners = part.map(|k| corners[k]);
             faces.push(Face { corners, material: 0 });
             let texture = uv.as_ref().map(|uv| corners.map(|corner| uv[corner as usize]));
-            face_data.push(FaceData { texture, ..FaceData::default() });
+            face_data.push(FaceData { texture, continues: number > 0, ..FaceData::default() });
         }
     }
     if faces.is_empty() {

@@ -355,7 +355,9 @@ impl Parser {
         if self.seen[SIZE] {
             return Ok(());
         }
-        let why = format!("`size W H` is missing; it must come first, W and H from 1 to {MAX_SIDE}");
+        let why = format!(
+            "`size W H` is missing; it stands before the first triangle, W and H from 1 to {MAX_SIDE}"
+        );
         Err(place.fault("size", before, why).into())
     }
 }
