@@ -17,6 +17,8 @@ pub mod verify;
 pub mod trace;
 pub mod replay;
 pub mod synth;
+pub mod estimate;
+pub mod calibrate;
 pub mod energy;
 pub mod bench;
 pub mod config;

@@ -109,7 +109,8 @@ impl Synthesiser {
         let part = Part::named(&self.unit, machine).map_err(|e| failed(e.to_string()))?;
         let design =
             Design::new(machine, part).map_err(|e| failed(format!("the netlist cannot be built: {e}")))?;
-        let flow = Flow { cache: &self.cache, limit: self.limit, seeds: &self.seeds, done: &|| {} };
+        let flow =
+            Flow { cache: &self.cache, limit: self.limit, seeds: &self.seeds, by_unit: true, done: &|| {} };
         let outcome = flow.run(&design, &self.target);
         match &outcome.stop {
             Some(stop @ Stop::TimeLimit { .. }) => Err((Status::Timeout, stop.to_string())),

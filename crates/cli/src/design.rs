@@ -3,6 +3,7 @@
 use crate::staging::Staging;
 use anyhow::{Result, anyhow};
 use edgewalk_machine::Plan;
+use edgewalk_vectors::write::core;
 
 /// The files that `write_design` may write under `folder`: of the lanes of SETUP a machine has 1, 2 or 4.
 pub fn own(folder: &str) -> Vec<String> {
@@ -19,6 +20,8 @@ pub fn write_design(machine: &Plan, out: &Staging, folder: &str) -> Result<Vec<S
         names.push(name);
     }
     out.write(&format!("{folder}filelist.f"), format!("{stamp}{}\n", names.join("\n")))?;
+    let (name, stamp) = (format!("machine_{}", machine.hash()), machine.stamp("#"));
+    out.write(&format!("{folder}edgewalk.core"), core::of_design(&stamp, &name, "edgewalk", &names))?;
     out.write(&format!("{folder}machine.toml"), machine.stamp("#") + "\n" + &machine.to_toml())?;
     Ok(names)
 }

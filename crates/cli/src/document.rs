@@ -3,8 +3,14 @@
 use anyhow::Result;
 use serde::Serialize;
 
-/// Version of every format. Its first number changes when a key goes or means something else, its second when a key is new.
-const VERSION: [u32; 2] = [1, 0];
+/// Version of the format `edgewalk-WHAT`. Its first number changes when a key goes or means something else, its second when a key is
+/// new.
+fn version(what: &str) -> [u32; 2] {
+    match what {
+        "report" => [1, 1],
+        _ => [1, 0],
+    }
+}
 
 #[derive(Serialize)]
 struct Document<R> {
@@ -15,7 +21,7 @@ struct Document<R> {
 }
 
 fn of<R: Serialize>(what: &str, report: R) -> Document<R> {
-    Document { format: format!("edgewalk-{what}"), version: VERSION, report }
+    Document { format: format!("edgewalk-{what}"), version: version(what), report }
 }
 
 /// `report`, whose JSON is an object, as a document of the format `edgewalk-WHAT`.

@@ -6,6 +6,7 @@ use anyhow::{Context as _, Result};
 use clap::ValueEnum as _;
 use edgewalk_golden::{HiddenLines, Order, wireframe_in_lines};
 use edgewalk_host::extra;
+use edgewalk_host::faces::joined;
 use edgewalk_host::input::{fitting, in_triangles};
 use edgewalk_host::needs::needs;
 pub use edgewalk_host::port::{PortFrame, draw_state, to_port};
@@ -188,7 +189,10 @@ impl Source {
         }
         let frame = match self.shading.at_pixels() {
             Some(method) => scene.pixel_frame(surface, method),
-            None => edgewalk_golden::frame(scene, surface, self.shading.golden()),
+            None => {
+                let frame = edgewalk_golden::frame(scene, surface, self.shading.golden());
+                joined(frame, scene, surface, machine)
+            }
         };
         let frame = in_triangles(frame, machine)?;
         if frame.blend == Blending::Off {

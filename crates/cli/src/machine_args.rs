@@ -46,6 +46,11 @@ impl MachineArgs {
         MachineArgs { machine, set }.adapted(size, needs).with_context(|| text.to_owned())
     }
 
+    /// The machine `FILE|PRESET[,key=value...]`, whatever --machine and --set say.
+    pub fn alone(text: &str) -> Result<Plan> {
+        MachineArgs { machine: DEFAULT.to_owned(), set: Vec::new() }.named(text, None, &[])
+    }
+
     /// The machine asked for, with its screen replaced where the input brings its own size.
     pub fn machine(&self, size: Option<(u32, u32)>) -> Result<Plan> {
         self.adapted(size, &[])

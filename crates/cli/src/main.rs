@@ -16,6 +16,7 @@ mod cost;
 mod design;
 mod document;
 mod engine;
+mod estimator;
 mod fast;
 mod fast_phong;
 mod input;
@@ -40,8 +41,8 @@ mod verdict;
 use anyhow::{Result, anyhow};
 use clap::{CommandFactory as _, Parser, Subcommand};
 use commands::{
-    bench, compare, completions, config, demo, emit, energy, explain, gallery, judge, man, mutants, raster,
-    render, replay, size, sweep, synth, trace, vectors, verify,
+    bench, calibrate, compare, completions, config, demo, emit, energy, estimate, explain, gallery, judge,
+    man, mutants, raster, render, replay, size, sweep, synth, trace, vectors, verify,
 };
 use machine_args::MachineArgs;
 use std::io::Write as _;
@@ -95,6 +96,8 @@ enum Command {
     Trace(trace::Args),
     Replay(replay::Args),
     Synth(synth::Args),
+    Estimate(estimate::Args),
+    Calibrate(calibrate::Args),
     Energy(energy::Args),
     Bench(bench::Args),
     Config(config::Args),
@@ -151,6 +154,8 @@ fn run(cli: &Cli, talk: Talk) -> Result<Verdict> {
         Command::Trace(a) => trace::run(a, &cli.machine, talk),
         Command::Replay(a) => replay::run(a, &cli.machine, talk),
         Command::Synth(a) => synth::run(a, &cli.machine, talk),
+        Command::Estimate(a) => estimate::run(a, &cli.machine, talk),
+        Command::Calibrate(a) => calibrate::run(a, talk),
         Command::Energy(a) => energy::run(a, &cli.machine, talk),
         Command::Bench(a) => bench::run(a, &cli.machine, talk),
         Command::Config(a) => config::run(a, &cli.machine, talk),

@@ -3,11 +3,12 @@
 use crate::input::PortFrame;
 use crate::staging::Staging;
 use crate::{Talk, jobs, progress};
-use anyhow::{Result, anyhow};
+use anyhow::{Result, anyhow, ensure};
 use edgewalk_machine::{Plan, Unknown};
 use edgewalk_scene::InputKind;
+use edgewalk_vectors::suites::input::Sent;
 use edgewalk_vectors::{
-    Files, Reached, SUITES, StallKind, Suite, Tables, Unit, Words, capture_watched, design, directory,
+    Files, Reached, SUITES, StallKind, Suite, Tables, Unit, capture_watched, design, directory,
     directory_for, dut::Wiring, not_covered, reached,
 };
 use std::path::{Component, Path};
@@ -21,44 +22,29 @@ pub fn stalls(name: &str) -> Result<StallKind, String> {
         .ok_or_else(|| format!("one of {}", names.join(", ")))
 }
 
+/// Refuses a unit that the machine has not.
+pub fn check_unit(machine: &Plan, unit: Unit) -> Result<()> {
+    let names: Vec<&str> = Unit::all(machine).iter().map(|unit| unit.name()).collect();
+    ensure!(
+        names.contains(&unit.name()),
+        "--unit {}: the machine has no such unit; permitted: {}; or set the keys that give it this unit",
+        unit.name(),
+        names.join(", ")
+    );
+    Ok(())
+}
+
 /// The triangles of an input as a suite with its depth function; `triangles` of them, spread over it evenly.
 pub fn of_input(input: &str, machine: &Plan, port: &PortFrame, triangles: Option<u64>) -> Result<Suite> {
     let name = if input == InputKind::STANDARD_INPUT { "stdin" } else { input };
-    let name = Path::new(name).file_stem().map_or_else(|| input.into(), |stem| stem.to_string_lossy());
-    // It becomes the name of a directory.
-    let name: String =
-        name.chars().map(|c| if c.is_alphanumeric() || "-_".contains(c) { c } else { '_' }).collect();
-    let wanted = triangles.map_or(usize::MAX, |n| usize::try_from(n).unwrap_or(usize::MAX));
-    let every = port.triangles.len().div_ceil(wanted).max(1);
-    let triangles: Vec<_> = port.triangles.iter().step_by(every).copied().collect();
-    Ok(Suite {
-        state: port.one_state()?,
-        words: words_of_input(machine, port, every)?,
-        ..Suite::of_triangles(&name, input, triangles)
-    })
-}
-
-/// Memory words of a sample of an input: every n-th of its triangles.
-fn words_of_input(machine: &Plan, port: &PortFrame, every: usize) -> Result<Words> {
-    let mut words = Words::new();
     let map = port.passes.first().and_then(|pass| port.lights.get(pass.map?));
-    if let Some(map) = map {
-        words.insert("map", map.words.iter().copied().map(u128::from).collect());
-    }
-    let shading = port.words();
-    let taken = shading.records.len().div_ceil(every);
-    if machine.shade.is_there() && taken > 1 << machine.shade.record_bits {
-        return Err(anyhow!(
-            "{taken} triangles with a record each, and the memory of the terms has {}; add --triangles {0}, or --set term.record_bits={}",
-            1u64 << machine.shade.record_bits,
-            taken.next_power_of_two().ilog2()
-        ));
-    }
-    let records = shading.records.iter().step_by(every).flat_map(|record| machine.record_words(record));
-    let filled = [("tables", &shading.tables), ("roots", &shading.roots), ("textures", &shading.textures)];
-    words.insert("terms", records.map(u128::from).collect());
-    words.extend(filled.map(|(memory, words)| (memory, words.as_slice().into())));
-    Ok(words)
+    let sent = Sent {
+        triangles: &port.triangles,
+        state: port.one_state()?,
+        map: map.map(|map| map.words.as_slice()),
+        shading: port.words(),
+    };
+    Ok(Suite { about: input.to_owned(), ..Suite::of_input(machine, name, &sent, triangles)? })
 }
 
 /// The suites that meet every corner on purpose.

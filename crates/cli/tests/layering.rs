@@ -13,8 +13,8 @@ const LAYERS: &[(&str, &[&str])] = &[
     ("model", &["machine"]),
     ("host", &["numerics", "machine", "scene", "golden", "model"]),
     ("judge", &["numerics", "machine", "scene", "golden", "model", "host"]),
-    ("gallery", &["machine", "scene", "golden", "model", "host", "judge"]),
     ("explain", &["numerics", "machine", "scene", "golden", "model", "host", "judge"]),
+    ("gallery", &["machine", "scene", "golden", "model", "host", "judge", "explain"]),
     ("netlist", &[]),
     ("verilog", &["netlist"]),
     ("jit", &["netlist"]),
@@ -34,6 +34,8 @@ const LAYERS: &[(&str, &[&str])] = &[
             "explore",
         ],
     ),
+    ("capi", &["machine", "scene", "model", "lockstep", "host"]),
+    ("python", &["machine", "scene", "model", "jit", "host", "judge", "lockstep", "vectors", "explore"]),
 ];
 
 /// What the tests of a crate may know beyond that.

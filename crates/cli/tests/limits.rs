@@ -154,7 +154,8 @@ fn an_endless_word_is_refused_at_once() {
         assert_eq!(code, Some(2), "{arguments:?}: {error}");
         assert!(error.starts_with(&format!("error: {says}")), "{arguments:?}: {error}");
         assert!(error.len() < 1000, "{arguments:?}: {} bytes of message", error.len());
-        assert!(start.elapsed() < Duration::from_secs(10), "{arguments:?} took {:?}", start.elapsed());
+        // A likeness of such a word takes hours; a busy machine takes seconds.
+        assert!(start.elapsed() < Duration::from_secs(90), "{arguments:?} took {:?}", start.elapsed());
     }
     println!("checked {0} / {0} inputs", runs.len());
 }

@@ -75,6 +75,16 @@ fn a_bench_is_scored_from_outside() {
     let shown = less["survivors"].as_array().expect("a list").iter();
     let lines = |survivor: &Value, way: &str| survivor[way].as_array().map_or(0, Vec::len);
     assert!(shown.clone().all(|s| lines(s, "with") + lines(s, "without") > 0), "{less}");
+    let design =
+        fs::read_to_string(folder.path().join("v/hazards_pixel/hdl/edgewalk_pixel.v")).expect("a file");
+    let of_design = |line: &Value| design.contains(line.as_str().expect("a text"));
+    assert!(shown.clone().all(|s| s["without"].as_array().expect("a list").iter().all(of_design)), "{less}");
+    assert!(shown.clone().any(|s| !s["with"].as_array().expect("a list").iter().all(of_design)), "{less}");
+    // The project's own suite shows each of them by a triangle.
+    let by_hazards = shown.filter(|s| only_theirs.iter().any(|fault| s["fault"] == *fault));
+    let by_hazards =
+        by_hazards.filter(|s| s["shown_by"]["suite"] == "hazards" && s["shown_by"]["triangle"].is_u64());
+    assert_eq!(by_hazards.count(), only_theirs.len(), "{less}");
     // A threshold that is missed.
     let (code, text, _) = run(folder.path(), &[&theirs[..], &["--least", "100"]].concat());
     assert!(code == Some(1) && text.contains(&format!("found {} / 16", less["found"])), "{text}");
@@ -83,6 +93,43 @@ fn a_bench_is_scored_from_outside() {
         text.lines().any(|line| line.starts_with("survived: ") && line.contains(named.as_str())),
         "{text}"
     );
+}
+
+/// Of what a bench that passes everything misses a suite shows a triangle, or the prover says that nothing can show it.
+#[test]
+fn survivors_are_shown_or_proved() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let arguments = ["mutants", "--unit", "span", "--bench", "true", "--sample", "14", "--seed", "1"];
+    let report = report(folder.path(), &[&arguments[..], &["--prove"]].concat());
+    let machine = Plan::default();
+    let span = Unit::named("span").expect("a unit");
+    let netlist = design::netlist(&machine, span).expect("a checked machine");
+    let faults = mutants(&netlist);
+    let (mut shown, mut proved) = (0, 0);
+    for survivor in report["survivors"].as_array().expect("a list") {
+        let place = faults.iter().position(|fault| {
+            survivor["fault"] == fault.description.as_str() && survivor["module"] == fault.module.as_str()
+        });
+        let faulty = faults[place.expect("a fault of the unit")].apply(&netlist);
+        let by = &survivor["shown_by"];
+        if let Some(name) = by["suite"].as_str() {
+            let suite = Suite::named(&machine, name, 1, 24).expect("listed");
+            let trace = Runs::new(&machine, &suite, suite.state).capture(span, suite.stalls);
+            assert!(trace.lockstep(&faulty).is_err(), "{survivor}");
+            let mut first = 0;
+            let case = suite.cases.iter().find(|case| {
+                first += case.triangles.len() as u64;
+                by["triangle"].as_u64().is_some_and(|triangle| triangle < first)
+            });
+            assert_eq!(by["case"].as_str(), Some(case.map_or("", |case| case.name.as_str())), "{survivor}");
+            shown += 1;
+        } else if survivor["proved_equivalent"] == true {
+            proved += 1;
+        }
+    }
+    println!("{shown} shown, {proved} proved to change nothing");
+    assert_eq!((&report["found"], &report["proved_equivalent"]), (&Value::from(0), &Value::from(proved)));
+    assert!(shown + proved == 14 && shown >= 8 && proved >= 1, "{report}");
 }
 
 /// Faults and verdicts that are kept in a folder, in the order in which they were tried.
@@ -126,6 +173,15 @@ fn a_run_that_was_cut_goes_on() {
     // The folder of the bench is another.
     fs::write(path.join("b/more"), "x").expect("written");
     assert_eq!(go("4", &bench), (Some(4), 5));
+    // A file of it has other contents, the command is another, the machine is another: a verdict holds for none of these.
+    fs::write(path.join("b/more"), "y").expect("written");
+    assert_eq!(go("4", &bench), (Some(4), 5));
+    assert_eq!(go("4", &format!("{bench} # once more")), (Some(4), 5));
+    let other = ["--set", "edge.kind=slope"];
+    let mut arguments = arguments("4");
+    arguments[6] = &bench;
+    report(path, &[&arguments[..], &other].concat());
+    assert_eq!(fs::read_to_string(&marks).expect("a file").lines().count(), 5);
     assert!(first.iter().all(|(_, verdict)| verdict == "survived"));
 }
 
@@ -156,6 +212,7 @@ fn a_bench_that_cannot_score_is_refused() {
     assert_eq!(code, Some(0), "{error}");
     let report: Value = serde_json::from_str(&out).expect("JSON");
     assert_eq!((&report["found"], &report["found_by_time"]), (&Value::from(2), &Value::from(2)));
+    assert_eq!(report["share"], 100.0);
 }
 
 /// Our PIXEL under the names of `docs/own_rtl/pixel.toml` passes the bench for that design, and its faults fail.

@@ -132,6 +132,61 @@ fn what_poly_cannot_draw_names_place_and_remedy() {
     }
 }
 
+/// Each is refused with the line, what was found and what is permitted.
+#[test]
+fn malformed_polygons_name_place_and_remedy() {
+    let v = "1 1 0.5 1 0 0 0  8 1 0.5 1 0 0 0  8 8 0.5 1 0 0 0";
+    let first = |from: &str, to: &str| format!("P 3 {}", v.replacen(from, to, 1));
+    let cases: [(String, &[&str]); 25] = [
+        ("P".into(), &["a.tri:2: P n: ``", "an integer from 3 to 65536"]),
+        ("P 2 1 1 0.5 1 0 0 0  8 1 0.5 1 0 0 0".into(), &["a.tri:2: P n: `2`", "from 3 to 65536"]),
+        (format!("P 65537 {v}"), &["P n: `65537`", "from 3 to 65536"]),
+        (format!("P 3.5 {v}"), &["P n: `3.5`", "an integer"]),
+        (format!("P -3 {v}"), &["P n: `-3`", "an integer"]),
+        (format!("P 4 {v}"), &["a.tri:2: P: `21 given`", "28 values after n", "4 vertices"]),
+        (format!("P 3 {v} 4"), &["P: `22 given`", "21 values after n", "3 vertices"]),
+        (first("0.5", "1.5"), &["P vertex 1 z: `1.5`", "from -0.00001 to 1.00001"]),
+        (first("0.5", "nan"), &["P vertex 1 z: `nan`", "a number"]),
+        (first("8 1", "inf 1"), &["P vertex 2 x: `inf`", "-1000000 to 1000000"]),
+        (first("8 1", "8 2e6"), &["P vertex 2 y: `2e6`", "-1000000 to 1000000"]),
+        (first("1 0 0 0", "255 0 0 0"), &["P vertex 1 r: `255`", "from 0 to 1", "divide"]),
+        (first("1 0 0 0", "1 0 0 -1"), &["P vertex 1 kt: `-1`", "from 0 to 1"]),
+        (format!("H 3 {v}"), &["a.tri:2:", "`H`", "only on the lines after a polygon"]),
+        (format!("P 3 {v}\nT {v}\nH 3 {v}"), &["a.tri:4:", "`H`", "only on the lines after a polygon"]),
+        (format!("P 3 {v}\ndepth off\nH 3 {v}"), &["a.tri:4:", "`H`", "only on the lines after a polygon"]),
+        (format!("P 3 {v}\nH 2 {v}"), &["a.tri:3: H n: `2`", "from 3 to 65536"]),
+        (format!("P 3 {v}\nH 4 {v}"), &["a.tri:3: H: `21 given`", "28 values after n"]),
+        (format!("P 3 {v}\nH 3 {}", v.replacen("8 8", "8 y", 1)), &["a.tri:3: H vertex 3 y: `y`"]),
+        (format!("P 3 {v}\nmode flat"), &["a.tri:3: mode", "before the first triangle or polygon"]),
+        (format!("p 3 {v}"), &["a.tri:2: line starts with: `p`", "did you mean `P`"]),
+        (format!("extra 1\nP 3 {v}"), &["a.tri:3:", "polygons have no `X`", "only triangles"]),
+        (
+            format!("mode phong\nview 0 0 1\nsun 0 0 1 1\nP 3 {v}"),
+            &["a.tri:5:", "polygons have no `N`", "only triangles"],
+        ),
+        (
+            format!("blend 1\n{}", first("1 0 0 0", "1 0 0 0.5")),
+            &["polygon 0: kt within a polygon", "blend.kind=interpolated", "mode flat"],
+        ),
+        (
+            "P 4 1 1 0 1 0 0 0 8 8 0 1 0 0 0 8 1 1 1 0 0 0 1 8 .5 1 0 0 0".into(),
+            &["polygon at vertex 8 1", "its edges cross and no plane holds its z", "permitted"],
+        ),
+    ];
+    for (lines, parts) in &cases {
+        let folder = folder(&format!("size 9 9\n{lines}\n"));
+        let keys = ["--set", "polygon.edges=8", "--set", "blend.kind=constant", "--out", "o"];
+        let arguments = [&["render", "a.tri"], &keys[..]].concat();
+        let (code, error) = ended(&edgewalk(folder.path(), &arguments).output().expect("runs"));
+        assert_eq!(code, Some(2), "{lines}: {error}");
+        assert!(parts.iter().all(|part| error.contains(part)), "{lines}: {error}");
+        assert!(!folder.path().join("o").exists(), "{lines}: something was written");
+    }
+    let sound = folder(&format!("size 9 9\nP 3 {v}\n"));
+    let output = edgewalk(sound.path(), &["render", "a.tri", "--set", "polygon.edges=8"]).output();
+    assert_eq!(ended(&output.expect("runs")).0, Some(0), "what all of them are made from");
+}
+
 #[test]
 fn a_polygon_beyond_the_guard_band_is_cut() {
     let far = "size 48 36\nP 4  -900 -700 0.2 1 0 0 0   900 -700 0.2 1 0 0 0   900 700 0.2 1 0 0 0   -900 700 0.2 1 0 0 0\n";
@@ -158,4 +213,50 @@ fn explain_shows_the_registers_of_active_edges() {
     };
     assert_eq!(columns(machine, "c"), columns(golden, "column"), "{page}");
     assert_eq!(machine["pair"], golden["span"], "{page}");
+}
+
+#[test]
+fn polygons_are_drawn_without_ticking() {
+    let folder = folder(FILE);
+    let poly = ["--set", "polygon.edges=16"];
+    let json = |arguments: &[&str]| -> serde_json::Value {
+        let output = edgewalk(folder.path(), &[arguments, &["--json"]].concat()).output().expect("runs");
+        let error = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert_eq!(output.status.code(), Some(0), "{arguments:?}: {error}");
+        let line = output.stdout.split(|byte| *byte == b'\n').next().unwrap_or_default();
+        serde_json::from_slice(&output.stdout).or_else(|_| serde_json::from_slice(line)).expect("a document")
+    };
+    let fast = "without ticking";
+    let rendered = json(&[&["render", "a.tri"], &poly[..]].concat());
+    assert_eq!(rendered["cycles"]["path"], fast, "{rendered}");
+    let rastered = json(&[&["raster", "a.tri", "--out", "o"], &poly[..]].concat());
+    assert_eq!(rastered["cycles"]["path"], fast, "{rastered}");
+    let compared = json(&[
+        "compare",
+        "default,polygon.edges=16",
+        "default,polygon.edges=64,interpolator.adders=1",
+        "a.tri",
+    ]);
+    for side in ["a", "b"] {
+        assert_eq!(compared[side]["report"]["cycles"]["path"], fast, "{compared}");
+    }
+    let timed = json(&[&["bench", "a.tri", "--engine", "fast,tick", "--repeat", "1"], &poly[..]].concat());
+    assert_eq!(timed["engines"][0]["engine"], "fast", "{timed}");
+    assert!(timed["engines"][0]["absent"].is_null() && timed["engines"][0]["differs"].is_null(), "{timed}");
+    let sized = json(&[&["size", "a.tri"], &poly[..]].concat());
+    // The second polygon starts at (4, 4) and ends at (43, 31).
+    let farthest = &sized["channels"][0]["these"];
+    assert_eq!(farthest["needed_by"], serde_json::json!([2, [43, 31]]), "{farthest}");
+    assert_eq!(farthest["steps"], serde_json::json!([27, 39]), "{farthest}");
+    let vary =
+        ["sweep", "a.tri", "--vary", "fifo.span=1,2,8", "--vary", "setup.lanes=1,4", "--out", "s", "--quiet"];
+    json(&[&vary, &poly[..]].concat());
+    let rows = std::fs::read_to_string(folder.path().join("s/runs.jsonl")).expect("rows");
+    let each: Vec<serde_json::Value> =
+        rows.lines().map(|row| serde_json::from_str(row).expect("a row")).collect();
+    assert_eq!(each.len(), 6);
+    for row in &each {
+        assert_eq!((&row["status"], &row["report"]["cycles"]["path"]), (&"ok".into(), &fast.into()), "{row}");
+        assert_eq!(row["report"]["setup"]["by_pixels"], rendered["setup"]["by_pixels"], "{row}");
+    }
 }

@@ -22,6 +22,24 @@ fn files(folder: &Path) -> BTreeMap<String, String> {
         .collect()
 }
 
+/// `hdl/README.md`: which machine each folder holds, in the words of `edgewalk config explain`.
+#[test]
+fn page_of_hdl_lists_every_preset() {
+    let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../hdl/README.md");
+    let mut page = "# The Verilog of the presets\n\n\
+        One folder a machine, written by `edgewalk emit --machine NAME --out DIR`. `filelist.f` has the files in compile order.\n\
+        Ports: [machine, section 20](../docs/machine.md#20-ports). Onto a chip: [tutorial](../docs/tutorial/chip.md).\n\n\
+        | folder | machine |\n|---|---|\n"
+        .to_owned();
+    for (name, description) in PRESETS {
+        page += &format!("| [`{name}`]({name}) | {description} |\n");
+    }
+    if std::env::var_os("EDGEWALK_BLESS").is_some() {
+        std::fs::write(&path, &page).expect("written");
+    }
+    assert_eq!(std::fs::read_to_string(path).expect("hdl/README.md"), page);
+}
+
 #[test]
 fn hdl_is_what_is_printed_today() {
     let hdl = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../hdl");

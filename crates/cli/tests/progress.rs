@@ -11,7 +11,12 @@ fn seen(folder: &Path, arguments: &[&str]) -> String {
     let arguments: Vec<String> = arguments.iter().map(quoted).collect();
     let command = format!("stty cols 120; '{}' {}", env!("CARGO_BIN_EXE_edgewalk"), arguments.join(" "));
     let mut terminal = Command::new("script");
-    terminal.args(["-qec", &command, "/dev/null"]).current_dir(folder).stdin(std::process::Stdio::null());
+    // A runner without a terminal may have no TERM, which would be a terminal without bars.
+    terminal
+        .env("TERM", "xterm")
+        .args(["-qec", &command, "/dev/null"])
+        .current_dir(folder)
+        .stdin(std::process::Stdio::null());
     let output = terminal.output().expect("script, of util-linux");
     let text = String::from_utf8_lossy(&output.stdout).replace('\r', "\n");
     assert!(output.status.success(), "{command}: {text}");

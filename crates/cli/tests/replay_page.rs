@@ -137,3 +137,65 @@ fn a_name_with_marks_of_html_is_shown_as_it_is() {
     assert!(seen[0] == format!("{name}, edgewalk replay"), "{seen}");
     assert!(seen[1].as_str().unwrap().starts_with(&format!("{name} \u{b7} 1 triangle ")), "{seen}");
 }
+
+/// The polygon of the slides, a pixel to one of theirs; with a hole behind it.
+const POLYGONS: &str = "size 16 12
+P 6  2 3 0.5 1 0 0 0  7 1 0.5 1 0 0 0  13 5 0.5 1 0 0 0  13 11 0.5 1 0 0 0  7 7 0.5 1 0 0 0  2 9 0.5 1 0 0 0
+P 4  1 1 0.4 0 1 0 0  15 1 0.4 0 1 0 0  15 11 0.4 0 1 0 0  1 11 0.4 0 1 0 0
+H 3  4 4 0.4 0 1 0 0  12 4 0.4 0 1 0 0  8 9 0.4 0 1 0 0
+";
+
+/// Of each polygon the pairs that wait for MOVER, by line; and what the page says of one of them.
+const PAIRS: &str = r##"
+while (!document.body.classList.contains("ready")) await new Promise((done) => setTimeout(done, 20));
+const poly = app.doc.units.find((unit) => unit.name === "poly");
+const registers = poly.items.map((item) => app.doc.registers[item.register]).filter((register) => register);
+const at = (name, cycle) => rawAt(registers.find((register) => register.name === name), cycle);
+const polygons = [];
+let before = 0, said = null;
+for (let cycle = 0; cycle < app.doc.cycles; cycle++) {
+  const run = at("run", cycle);
+  if (run && !before) polygons.push({});
+  before = run;
+  if (!at("pair", cycle)) continue;
+  const [line, left, right] = ["pair_y", "pair_left", "pair_right"].map((name) => at(name, cycle));
+  if (left >= right) continue;
+  const pairs = (polygons.at(-1)[line] ??= []);
+  if (!pairs.some((pair) => pair[0] === left)) pairs.push([left, right]);
+  if (line === 8 && said === null) {
+    app.go(cycle);
+    said = [left, right, document.getElementById("says").textContent, document.getElementById("cards").textContent];
+  }
+}
+return { polygons, said };
+"##;
+
+#[test]
+fn pairs_of_the_page_are_those_explained() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = folder.path();
+    std::fs::write(at.join("p.tri"), POLYGONS).unwrap();
+    let machine = ["--machine", "polygon"];
+    let arguments = [&["replay", "p.tri", "-q", "--out", "page.html"], &machine[..]].concat();
+    assert_eq!(run(at, &arguments), (Some(0), String::new()));
+    let seen = used(&at.join("page.html"), PAIRS);
+    let mut compared = 0;
+    for line in (0..12).map(|line: u32| line.to_string()) {
+        let explain = [&["explain", "p.tri", "0", &line, "--json"], &machine[..]].concat();
+        let page: Value = serde_json::from_slice(&edgewalk(at, &explain).output().unwrap().stdout).unwrap();
+        for polygon in page["poly"].as_array().into_iter().flatten() {
+            let id = number(&polygon["id"]) as usize;
+            let shown = &seen["polygons"][id][&line];
+            let pairs = polygon["pairs"].as_array().unwrap();
+            assert_eq!(shown.as_array().map_or(&[][..], Vec::as_slice), pairs, "polygon {id}, line {line}");
+            compared += pairs.len();
+        }
+    }
+    assert_eq!(compared, (10 + 2) + (10 + 5), "spans of both polygons");
+    let [left, right] = [0, 1].map(|place| number(&seen["said"][place]));
+    let [says, cards] = [2, 3].map(|place| seen["said"][place].as_str().unwrap());
+    assert!(says.contains(&format!("pair {left} to {right} of line 8 waits for MOVER")), "{says}");
+    for part in ["active edges of line y", "edges that enter next", "pair left", "values, LSBVDd0"] {
+        assert!(cards.contains(part), "{part}: {cards}");
+    }
+}

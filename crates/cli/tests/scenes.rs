@@ -21,6 +21,7 @@ const DRAWN: &[(&str, &[&str])] = &[
     ("silhouette.toml", &["--shading", "constant-averaged"]),
     ("missed-highlight.toml", &["--shading", "constant"]),
     ("polygon.tri", &[]),
+    ("polygons.tri", &[]),
     ("quad.tri", &[]),
     ("depth.tri", &[]),
     ("worked-example.tri", &[]),

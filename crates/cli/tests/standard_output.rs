@@ -9,7 +9,7 @@ use std::path::Path;
 use std::process::Stdio;
 
 /// A quick run of each command, as text; those with a report also come with --json.
-pub const COMMANDS: [&[&str]; 25] = [
+pub const COMMANDS: [&[&str]; 27] = [
     &["demo", "d.tri", "--out", "demo"],
     &["render", "d.tri", "--out", "render"],
     &["render", "sphere", "--engine", "golden", "--out", "shaded"],
@@ -35,6 +35,16 @@ pub const COMMANDS: [&[&str]; 25] = [
     &["trace", "d.tri", "--out", "t.vcd", "--cycles", "10"],
     &["bench", "d.tri", "--engine", "fast", "--repeat", "1"],
     &["synth", "--unit", "span", "--seeds", "1", "--cache", concat!(env!("CARGO_TARGET_TMPDIR"), "/synth")],
+    &["estimate", "small"],
+    &[
+        "calibrate",
+        "--machines",
+        concat!(env!("CARGO_MANIFEST_DIR"), "/../synth/data/machines.txt"),
+        "--data",
+        concat!(env!("CARGO_MANIFEST_DIR"), "/../synth/data/measured.csv"),
+        "--fit",
+        "fit.json",
+    ],
     &["size", "d.tri"],
     &["sweep", "d.tri", "--vary", "interpolator.adders=1,2", "--out", "sweep"],
     &["compare", "default", "default", "d.tri"],

@@ -180,19 +180,58 @@ fn setup() -> String {
     table(header, body.collect::<Vec<_>>())
 }
 
+/// Which SETUP for which mesh: clocks a triangle, milliseconds a frame and triangles a second at the placed clock.
+fn kinds(name: &str) -> String {
+    let rows = rows(name);
+    let header = ["kind", "lanes", "LUT4", "MHz, median (range)"].map(str::to_owned).into_iter();
+    let header = header
+        .chain(SCENES.map(|scene| format!("{scene}: clocks a triangle, ms, million triangles a second")));
+    let mut body = Vec::new();
+    for kind in values(&rows, "setup.kind") {
+        for lanes in values(&rows, "setup.lanes") {
+            let at = |scene: &str| {
+                let is = |row: &&Row| {
+                    (&*row["input"], &row["setup.kind"], &row["setup.lanes"]) == (scene, &kind, &lanes)
+                };
+                rows.iter().find(is).unwrap_or_else(|| panic!("{scene}, {kind}, {lanes}"))
+            };
+            let of = |scene: &str| {
+                let row = at(scene);
+                let mean = format!("{:.1}", number(row, "setup_mean"));
+                match row["mhz_median"].parse::<f64>() {
+                    Ok(mhz) => {
+                        let seconds = number(row, "cycles") / (mhz * 1e6);
+                        let rate = number(row, "triangles") / seconds / 1e6;
+                        format!("{mean}, {:.2}, {rate:.3}", seconds * 1e3)
+                    }
+                    Err(_) => mean,
+                }
+            };
+            let first = at(SCENES[0]);
+            let figures = [kind.clone(), lanes.clone(), first["lut4"].clone(), placed(first)];
+            body.push(figures.into_iter().chain(SCENES.map(of)).collect());
+        }
+    }
+    table(header, body)
+}
+
+/// The clock over the seeds.
+fn placed(row: &Row) -> String {
+    match row["mhz_median"].parse::<f64>() {
+        Ok(mhz) => format!("{mhz:.1} ({:.1} to {:.1})", number(row, "mhz_min"), number(row, "mhz_max")),
+        Err(_) => "null".to_owned(),
+    }
+}
+
 /// Cells and clock of a unit.
 fn cells(name: &str, keys: &[(&str, &str)]) -> String {
     let rows = rows(name);
     let figures = ["LUT4", "carry", "flip-flops", "MHz, median (range)", "why not"].map(str::to_owned);
     let header = keys.iter().map(|key| key.1.to_owned()).chain(figures);
     let body = rows.iter().map(|row| {
-        let mhz = match row["mhz_median"].parse::<f64>() {
-            Ok(mhz) => format!("{mhz:.1} ({:.1} to {:.1})", number(row, "mhz_min"), number(row, "mhz_max")),
-            Err(_) => "null".to_owned(),
-        };
         let values = keys.iter().map(|key| row[key.0].clone());
         let counts = ["lut4", "carry", "ff"].map(|name| row[name].clone());
-        values.chain(counts).chain([mhz, row["synth_reasons"].clone()]).collect()
+        values.chain(counts).chain([placed(row), row["synth_reasons"].clone()]).collect()
     });
     table(header, body.collect::<Vec<_>>())
 }
@@ -212,6 +251,7 @@ fn the_tables_are_those_of_the_data() {
             cells("pixel_cells", &[("interpolator.adders", "adders"), ("interpolator.segments", "segments")]),
         ),
         ("setup", setup()),
+        ("setup_kinds", kinds("setup_kinds")),
         (
             "setup_cells",
             cells("setup_cells", &[("setup.lanes", "lanes"), ("cycles", "cycles of torus-knot")]),

@@ -2,6 +2,8 @@
 #![allow(clippy::unwrap_used)] // a test that unwraps nothing reports it
 
 mod refusals;
+mod require;
+mod search;
 mod resume;
 mod again;
 mod parts;

@@ -1,5 +1,8 @@
 //! What a waveform shows: what can change, causes by name, tags only where the machine has them.
 
+mod views;
+
+use crate::support::edgewalk;
 use std::collections::{BTreeMap, BTreeSet};
 use std::process::Command;
 
@@ -322,4 +325,22 @@ fn a_part_that_is_not_there_is_refused() {
         assert!(text.contains(said), "{arguments:?}: {text}");
         assert!(file.is_empty(), "{arguments:?}");
     }
+}
+
+/// The netlist of a machine that shades at each pixel has the records of its triangles: it takes the cycles that the model takes.
+#[test]
+fn a_shaded_frame_takes_the_models_cycles() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let cycles = |command: &[&str]| {
+        let mesh =
+            ["sphere", "--triangles", "40", "--shading", "fast-phong", "--set", "shade.kind=fast-phong"];
+        let screen = ["--set", "screen.width=160", "--set", "screen.height=120", "--json"];
+        let output = edgewalk(folder.path(), &[command, &mesh, &screen].concat()).output().expect("runs");
+        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+        let told: serde_json::Value = serde_json::from_slice(&output.stdout).expect("a document");
+        told["cycles"].as_u64().expect("a number")
+    };
+    let [traced, recorded] = [&["trace", "--out", "a.saif"][..], &["replay", "--out", "a.json"]].map(cycles);
+    assert_eq!(traced, recorded);
+    assert!(recorded > 1000, "{recorded}");
 }

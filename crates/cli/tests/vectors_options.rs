@@ -28,8 +28,9 @@ fn a_seed_draws_triangles_and_stalls() {
     let folder = tempfile::tempdir().unwrap();
     let folder = folder.path();
     std::fs::write(folder.join("own.tri"), triangles(&[0, 1, 2])).unwrap();
-    for (out, seed) in [("one", "1"), ("two", "2"), ("again", "2")] {
-        let random = ["--suite", "random", "--count", "5", "--unit", "setup", "--seed", seed];
+    for (out, seed, count) in [("one", "1", "5"), ("two", "2", "5"), ("again", "2", "5"), ("more", "2", "9")]
+    {
+        let random = ["--suite", "random", "--count", count, "--unit", "setup", "--seed", seed];
         vectors(folder, out, &[&random[..], &SMALL].concat());
         let own = [
             "own.tri",
@@ -50,6 +51,8 @@ fn a_seed_draws_triangles_and_stalls() {
     let random = |out: &str| text(folder, &format!("{out}/random_setup/tri.in.mem"));
     assert_ne!(random("one"), random("two"));
     assert_eq!(random("two"), random("again"));
+    // Triangle k depends on nothing but seed, suite and k.
+    assert!(random("more").starts_with(&random("two")) && random("more").lines().count() == 9);
     // The triangles of a file stay, and wait in other cycles.
     let own = |out: &str, file: &str| text(folder, &format!("{out}_own/own_setup/{file}"));
     assert_eq!(own("one", "tri.in.mem"), own("two", "tri.in.mem"));
@@ -150,4 +153,27 @@ fn a_sample_brings_its_records() {
             numbers.iter().flat_map(|k| &whole[*k as usize * record..][..record]).cloned().collect();
         assert_eq!(found, expected, "--triangles {wanted}");
     }
+}
+
+/// A unit of another machine is refused; of a machine with it each directory is written, EDGE behind a sequenced SETUP among them.
+#[test]
+fn unit_of_another_machine_is_refused() {
+    let folder = tempfile::tempdir().expect("a folder");
+    for unit in ["lamp", "blend", "poly"] {
+        let arguments = ["vectors", "--suite", "hazards", "--unit", unit, "--out", "v"];
+        let (code, said) = run(folder.path(), &arguments);
+        assert_eq!(code, Some(2), "{said}");
+        let message =
+            format!("--unit {unit}: the machine has no such unit; permitted: machine, setup, edge, span");
+        assert!(said.contains(&message), "{said}");
+    }
+    vectors(folder.path(), "v", &["--suite", "hazards", "--unit", "edge", "--set", "setup.kind=sequenced"]);
+    let manifest = manifest(folder.path(), "v/hazards_edge");
+    let line =
+        manifest["channels"].as_array().expect("a list").iter().find(|channel| channel["name"] == "line");
+    assert_eq!(
+        line.expect("a channel")["latency"],
+        Value::Null,
+        "the line leaves before its triangle is taken"
+    );
 }

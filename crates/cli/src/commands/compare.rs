@@ -1,6 +1,7 @@
-//! `edgewalk compare`: two machines on one input, by what differs.
+//! `edgewalk compare`: two machines on one input, by what differs; or any number of both, by what their features cost.
 
 mod difference;
+mod features;
 mod page;
 
 use crate::Talk;
@@ -36,6 +37,10 @@ use std::path::PathBuf;
 /// with the shading equation at each pixel. Pictures: a.png, b.png, and difference.png, with the largest difference
 /// in yellow. The command compares machines, each beside golden as in `edgewalk render`. It does not take pictures
 /// of other programs.
+///
+/// With several inputs, --with, --table or --page the command prints what features cost, as one table: estimated cells by
+/// unit, clock and memory of each machine; cycles, bytes and distance from the shading equation of each machine on each
+/// input. There the shading `shadows` stands for gouraud with a map for each light.
 #[derive(clap::Args)]
 #[command(after_help = "Examples:
   edgewalk compare default default,interpolator.adders=1 teapot.obj
@@ -43,7 +48,9 @@ use std::path::PathBuf;
   edgewalk compare default default,shade.kind=fast-phong teapot.obj
   edgewalk compare default:constant default:gouraud torus
   edgewalk compare default textbook sphere --stalls dram --out out/compare
-  edgewalk compare default default,setup.lanes=1 sphere --synth ice40-hx8k")]
+  edgewalk compare default default,setup.lanes=1 sphere --synth ice40-hx8k
+  edgewalk compare default default,shade.kind=phong sphere torus --with small --page features.html
+  edgewalk compare default default,shadow.light=perspective,blend.kind=constant:shadows sphere --table")]
 pub struct Args {
     /// A machine: `FILE|PRESET[,key=value...][:SHADING]`
     #[arg(value_name = "A")]
@@ -51,9 +58,18 @@ pub struct Args {
     /// Another machine, in the same form
     #[arg(value_name = "B")]
     b: String,
-    /// A built-in scene, a scene file (.toml), a mesh (.obj, .gltf, .glb) or a triangle file (.tri)
-    #[arg(value_name = "SCENE|MESH", default_value = "torus-knot")]
-    input: String,
+    /// Built-in scenes, scene files (.toml), meshes (.obj, .gltf, .glb) or triangle files (.tri)
+    #[arg(value_name = "SCENE|MESH", default_value = DEFAULT_INPUT)]
+    inputs: Vec<String>,
+    /// A further machine of the table, in the same form (repeatable)
+    #[arg(long, value_name = "MACHINE")]
+    with: Vec<String>,
+    /// Print the table for two machines on one input too
+    #[arg(long)]
+    table: bool,
+    /// Also write the table as a page (HTML) that needs no network
+    #[arg(long, value_name = "FILE")]
+    page: Option<PathBuf>,
     /// Shading of a machine without one of its own: constant, constant-averaged, gouraud, phong, fast-phong
     #[arg(long, value_name = "SHADING", value_parser = clap::builder::PossibleValuesParser::new(SHADINGS.map(|of| of.0)))]
     shading: Option<String>,
@@ -70,14 +86,28 @@ pub struct Args {
     out: PathBuf,
 }
 
+/// The input where none is asked for.
+const DEFAULT_INPUT: &str = "torus-knot";
+
+impl Args {
+    /// The input of two machines; none where a table is asked for.
+    fn one_input(&self) -> Option<&str> {
+        match &self.inputs[..] {
+            [input] if self.with.is_empty() && !self.table && self.page.is_none() => Some(input),
+            _ => None,
+        }
+    }
+}
+
 /// What a run may write.
 const FILES: [&str; 5] = ["a.png", "b.png", "difference.png", "compare.json", "compare.txt"];
 
 /// Runs the command.
 pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
+    let Some(name) = args.one_input() else { return features::run(args, machine, talk) };
     // Opened once: it may be a pipe.
     let being_read = reading();
-    let input = Input::open(&args.input, Shaded::Corners(Shading::Gouraud))?;
+    let input = Input::open(name, Shaded::Corners(Shading::Gouraud))?;
     drop(being_read);
     let asked = |name: &str| Asked::new(name, &input, args, machine);
     let [a, b] = [asked(&args.a)?, asked(&args.b)?];
@@ -123,12 +153,12 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
     let mut differences = first.beside(&out)?;
     let b = side(b, "b.png", &mut |raster| differences.add(raster))?;
     let pixels = differences.write(&out, "difference.png", (width, height))?;
-    let page = Page::new([a, b], &args.input, args.stalls, pixels)?;
+    let page = Page::new([a, b], name, args.stalls, pixels)?;
     out.write("compare.json", page.json()?)?;
     out.write("compare.txt", page.text())?;
     out.publish(&FILES)?;
     talk.say(|| page.json(), || page.text())?;
-    page.verdict().or_nothing(&args.input, page.primitives(), (width, height))
+    page.verdict().or_nothing(name, page.primitives(), (width, height))
 }
 
 /// A machine, and what it draws.
@@ -147,7 +177,10 @@ impl Asked {
         let common = args.shading.as_deref().map(named).transpose()?;
         let screen = input.size();
         if let (Some(_), Some((shading, _))) = (screen, own) {
-            return Err(anyhow!("{name}: {} says itself how it is shaded; leave :{shading} out", args.input));
+            return Err(anyhow!(
+                "{name}: {} says itself how it is shaded; leave :{shading} out",
+                input.name()
+            ));
         }
         let mut plan = machine.named(text, screen, &[])?;
         let (shading, shaded) = match own.or(common) {

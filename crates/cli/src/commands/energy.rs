@@ -9,9 +9,8 @@ use crate::progress;
 use crate::scratch::Scratch;
 use crate::verdict::Verdict;
 use anyhow::{Context, Result, anyhow};
-use edgewalk_lockstep::StallKind;
 use edgewalk_machine::Plan;
-use edgewalk_model::Counters;
+use edgewalk_model::{Counters, Pass};
 use edgewalk_netlist::Transitions;
 use edgewalk_synth::{Activity, Cache, Design, LIBRARY, Library, Part, Placeless, Power, gates, power};
 use serde::Serialize;
@@ -58,7 +57,7 @@ fn megahertz(text: &str) -> Result<f64, String> {
     number.ok_or_else(|| "permitted: 0.001 to 100000".to_owned())
 }
 
-/// All that is told.
+/// The report, as text and as JSON.
 #[derive(Serialize)]
 struct Report {
     /// Hash of the machine.
@@ -141,12 +140,12 @@ fn drawn(args: &Args, machine: &Plan, talk: Talk) -> Result<(Transitions, Counte
     let bar = progress::bar(triangles as u64, "triangles", talk.quiet);
     let mut counted: Option<Transitions> = None;
     let taken = port.triangles.iter().take(triangles).copied().inspect(|_| bar.inc(1));
-    let counters =
-        edgewalk_lockstep::render_rtl_with(machine, taken, port.state()?, StallKind::None, |sim| {
-            let counted = counted.get_or_insert_with(|| Transitions::new(sim, "edgewalk"));
-            counted.sample(sim);
-            counted.cycles() < args.cycles
-        })?;
+    let passes = [Pass { triangles, ..Pass::all(port.state()?) }];
+    let counters = edgewalk_lockstep::render_rtl_with(machine, taken, &passes, port.words(), |sim| {
+        let counted = counted.get_or_insert_with(|| Transitions::new(sim, "edgewalk"));
+        counted.sample(sim);
+        counted.cycles() < args.cycles
+    })?;
     bar.finish_and_clear();
     Ok((counted.context("the machine did not run")?, counters))
 }

@@ -54,6 +54,7 @@ pub fn run(args: &Args, talk: Talk) -> Result<Verdict> {
                     picture::write_rgb(&out, &name, *width, *height, rgb)?
                 }
                 Image::Drawing(svg) => out.write(&name, svg)?,
+                Image::Text(_) => {} // stands on the page
             }
         }
     }
@@ -109,14 +110,23 @@ fn page(exhibits: &[Exhibit]) -> String {
         for (quantity, value) in &exhibit.figures {
             _ = writeln!(page, "| {quantity} | {value} |");
         }
-        for row in exhibit.views.chunks(ABREAST) {
-            let cells = |cell: &dyn Fn(&View) -> String| row.iter().map(cell).collect::<Vec<_>>().join(" | ");
+        let is_text = |view: &&View| matches!(view.image, Image::Text(_));
+        let pictures: Vec<&View> = exhibit.views.iter().filter(|view| !is_text(view)).collect();
+        for row in pictures.chunks(ABREAST) {
+            let cells = |cell: &dyn Fn(&View) -> String| {
+                row.iter().map(|view| cell(view)).collect::<Vec<_>>().join(" | ")
+            };
             let picture = |view: &View| {
                 format!("![{}]({})", view.caption, file_name(exhibit.name, view.name, &view.image))
             };
             _ = writeln!(page, "\n| {} |", cells(&picture));
             _ = writeln!(page, "|{}", "---|".repeat(row.len()));
             _ = writeln!(page, "| {} |", cells(&|view| view.caption.clone()));
+        }
+        for view in &exhibit.views {
+            if let Image::Text(text) = &view.image {
+                _ = writeln!(page, "\n{}\n```\n{}\n```", view.caption, text.trim());
+            }
         }
     }
     page

@@ -5,13 +5,15 @@
 //! ```
 
 mod bench;
+mod survivor;
 mod verdicts;
 
 use crate::document::document;
 use crate::machine_args::MachineArgs;
+use crate::suites::check_unit;
 use crate::verdict::Verdict;
 use crate::{Talk, jobs, own, progress};
-use anyhow::{Result, anyhow, ensure};
+use anyhow::{Result, anyhow};
 use bench::{Bench, Ended};
 use edgewalk_machine::Plan;
 use edgewalk_netlist::Netlist;
@@ -25,6 +27,7 @@ use std::fmt::Write as _;
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Duration;
+use survivor::{Look, Survivor};
 use verdicts::{Row, Store};
 
 /// Score your own bench: single faults of a unit's Verilog, one at a time, through your command.
@@ -62,6 +65,10 @@ pub struct Args {
     /// Seconds that the command may take for a design
     #[arg(long, default_value_t = 60, value_parser = clap::value_parser!(u64).range(1..))]
     limit: u64,
+    /// Ask the prover (Yosys) about faults that neither your bench nor a suite shows; those that it proves to change
+    /// nothing are not counted
+    #[arg(long)]
+    prove: bool,
     /// End with exit code 1 if less than this share of the faults is found, percent
     #[arg(long, value_name = "PERCENT", value_parser = clap::value_parser!(u8).range(0..=100))]
     least: Option<u8>,
@@ -87,20 +94,11 @@ struct Report {
     found: usize,
     /// Of the found ones those at which the command took too long.
     found_by_time: usize,
-    /// Percent of those tried.
+    /// Of those tried the ones that were proved to change nothing.
+    proved_equivalent: usize,
+    /// Percent of those tried that were not proved to change nothing.
     share: f64,
     survivors: Vec<Survivor>,
-}
-
-/// A fault that the bench passed.
-#[derive(Serialize)]
-struct Survivor {
-    module: String,
-    fault: String,
-    /// The lines of Verilog without it.
-    without: Vec<String>,
-    /// The lines with it.
-    with: Vec<String>,
 }
 
 /// Runs the command.
@@ -109,16 +107,16 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
     let wiring = args.dut.as_deref().map(|file| own::design(file, &machine)).transpose()?;
     let unit = wiring.as_ref().map(|wiring| wiring.dut.unit).or(args.unit);
     let unit = unit.ok_or_else(|| anyhow!("--unit or --dut is needed"))?;
-    let names: Vec<&str> = Unit::all(&machine).iter().map(|unit| unit.name()).collect();
-    ensure!(
-        names.contains(&unit.name()),
-        "--unit {}: the machine has no such unit; permitted: {}",
-        unit.name(),
-        names.join(", ")
-    );
+    check_unit(&machine, unit)?;
     let around = match &wiring {
         None => None,
         Some(wiring) => {
+            if let Some(memory) = wiring.dut.memories.keys().next() {
+                return Err(anyhow!(
+                    "{}: memories: {memory} is inside the design; permitted with mutants: memories that the bench keeps",
+                    wiring.dut.file
+                ));
+            }
             let found = wiring.found.as_ref().ok_or_else(|| {
                 anyhow!("{}: widths = \"unchecked\"; permitted with mutants: equal, extend", wiring.dut.file)
             })?;
@@ -157,10 +155,10 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
         store.add(Row { fault: *place, verdict: ended.word().to_owned() })
     })?;
     bar.finish_and_clear();
-    let report = report(args, &machine, unit, &netlist, &faults, &sample, &store);
+    let report = report(args, &machine, unit, &netlist, &faults, &sample, &store, talk)?;
     let least = f64::from(args.least.unwrap_or(0));
     let verdict = if report.share < least { Verdict::Mismatch } else { Verdict::Pass };
-    talk.say(|| document("mutants", &report), || report.text())?;
+    talk.say(|| document("mutants", &report), || report.text(args.prove))?;
     Ok(verdict)
 }
 
@@ -171,6 +169,7 @@ fn sources(netlist: &Arc<Netlist>, around: Option<&str>) -> Vec<(String, String)
     files
 }
 
+#[allow(clippy::too_many_arguments, reason = "all that a run was about")]
 fn report(
     args: &Args,
     machine: &Plan,
@@ -179,18 +178,24 @@ fn report(
     faults: &[Mutant],
     sample: &[usize],
     store: &Store,
-) -> Report {
+    talk: Talk,
+) -> Result<Report> {
     let ended = |word: &str| {
         sample.iter().copied().filter(|place| store.of(*place).as_deref() == Some(word)).collect::<Vec<_>>()
     };
     let (failed, late, passed) = (ended("found"), ended("found by time"), ended("survived"));
-    let without = edgewalk_verilog::print(netlist);
-    let survivor = |place: usize| {
-        let mutant = &faults[place];
-        let (without, with) = changed(&without, &edgewalk_verilog::print(&mutant.apply(netlist)));
-        Survivor { module: mutant.module.clone(), fault: mutant.description.clone(), without, with }
+    let survivors = if passed.is_empty() {
+        Vec::new()
+    } else {
+        let look = Look::new(machine, unit, netlist, args.prove)?;
+        let bar = progress::bar(passed.len() as u64, "survivors", talk.quiet);
+        let survivors = jobs::all(&passed, &bar, |place| look.at(&faults[*place]))?;
+        bar.finish_and_clear();
+        survivors
     };
-    Report {
+    let proved_equivalent = survivors.iter().filter(|survivor| survivor.proved_equivalent).count();
+    let counted = sample.len() - proved_equivalent;
+    Ok(Report {
         machine: machine.hash(),
         unit: unit.name(),
         bench: args.bench.clone(),
@@ -198,49 +203,26 @@ fn report(
         tried: sample.len(),
         found: failed.len() + late.len(),
         found_by_time: late.len(),
-        share: 100.0 * (failed.len() + late.len()) as f64 / sample.len().max(1) as f64,
-        survivors: passed.into_iter().map(survivor).collect(),
-    }
-}
-
-/// Lines shown of a change.
-const SHOWN: usize = 4;
-
-/// The first lines in which two designs differ.
-fn changed(one: &[(String, String)], other: &[(String, String)]) -> (Vec<String>, Vec<String>) {
-    for ((_, one), (_, other)) in one.iter().zip(other) {
-        let (one, other): (Vec<&str>, Vec<&str>) = (one.lines().collect(), other.lines().collect());
-        let same = one.iter().zip(&other).take_while(|(a, b)| a == b).count();
-        if same == one.len() && same == other.len() {
-            continue;
-        }
-        let (one, other) = (&one[same..], &other[same..]);
-        let behind = one.iter().rev().zip(other.iter().rev()).take_while(|(a, b)| a == b).count();
-        let lines = |lines: &[&str]| {
-            lines[..lines.len() - behind].iter().take(SHOWN).map(|line| line.trim().to_owned()).collect()
-        };
-        return (lines(one), lines(other));
-    }
-    (Vec::new(), Vec::new())
+        proved_equivalent,
+        share: 100.0 * (failed.len() + late.len()) as f64 / counted.max(1) as f64,
+        survivors,
+    })
 }
 
 impl Report {
-    fn text(&self) -> String {
-        let Report { machine, unit, bench, faults, tried, found, found_by_time, share, survivors } = self;
+    fn text(&self, proved: bool) -> String {
+        let Report { machine, unit, bench, faults, tried, found, found_by_time, share, .. } = self;
         let mut text = format!("{unit} of machine {machine}, bench: {bench}\n");
+        let counted = tried - self.proved_equivalent;
         // Writing to a string cannot fail.
         _ = writeln!(
             text,
-            "found {found} / {tried} ({share:.1} %), {found_by_time} of them by time; the unit has {faults} faults"
+            "found {found} / {counted} ({share:.1} %), {found_by_time} of them by time; the unit has {faults} faults"
         );
-        for Survivor { module, fault, without, with } in survivors {
-            _ = writeln!(text, "survived: {module}: {fault}");
-            without.iter().for_each(|line| _ = writeln!(text, "    - {line}"));
-            with.iter().for_each(|line| _ = writeln!(text, "    + {line}"));
+        if proved {
+            _ = writeln!(text, "not counted, as proved to change nothing: {}", self.proved_equivalent);
         }
-        if !survivors.is_empty() {
-            text += "A fault that survives may change nothing at any port.\n";
-        }
+        self.survivors.iter().for_each(|survivor| text += &survivor.lines(proved));
         text
     }
 }

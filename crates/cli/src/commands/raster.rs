@@ -35,7 +35,7 @@ use std::path::{Path, PathBuf};
   edgewalk raster textured.tri --out out/t --set channels.extra=2
 
 The triangle file (docs/triangle_file.md), one item a line, # comments:
-  size W H                                                first
+  size W H                                                before the first triangle, as the header's other lines
   mode gouraud|flat|phong|fast-phong
   view x y z   sun x y z i   specular halfway|blinn       of phong and fast-phong: to the viewer, to a light
   material ka kd ks n                                     of the triangles behind it
@@ -53,7 +53,7 @@ The triangle file (docs/triangle_file.md), one item a line, # comments:
   X e0 .. e0 .. e0 ..                                     N values of vertex 1, of 2, of 3: unorm [0,1], else LSB
   N nx ny nz  nx ny nz  nx ny nz                          normals of a triangle in mode phong or fast-phong
   UV u v  u v  u v                                        its texture coordinates, v up, where its material has a texture
-  P n  x y z r g b kt ..                                  a polygon of n vertices; the machine draws it as triangles
+  P n  x y z r g b kt ..                                  a polygon of n vertices; without polygon.edges drawn as triangles
   H n  x y z r g b kt ..                                  one more contour of the polygon on the line before")]
 pub struct Args {
     /// The triangle file; - for the standard input

@@ -2,6 +2,7 @@
 //! the golden picture, beside the truth.
 
 mod lights;
+mod look;
 
 use crate::Talk;
 use crate::document::document;
@@ -21,6 +22,7 @@ use edgewalk_golden::{HiddenLines, wireframe};
 use edgewalk_judge::report::Report;
 use edgewalk_machine::Plan;
 use edgewalk_model::Waits;
+use look::Look;
 use std::path::PathBuf;
 
 /// Draw a scene or mesh by the machine and compare it with the golden picture.
@@ -34,7 +36,9 @@ use std::path::PathBuf;
   edgewalk render torus-knot
   edgewalk render teapot.obj --out out/teapot --set screen.width=1280 --set screen.height=960
   edgewalk render sphere --shading constant --set interpolator.adders=1 --json
-  edgewalk render sphere --stalls dram:miss=10
+  edgewalk render sphere --stalls dram:miss=10 --clock 50
+  edgewalk render sphere --stalls dram --profile
+  edgewalk render sphere --ranges
   edgewalk render sphere --engine golden --shading phong
   edgewalk render teapot.obj --engine golden --shading constant-averaged
   edgewalk render sphere --engine golden --shading fast-phong --fit six-point --table 4096
@@ -58,9 +62,15 @@ pub struct Args {
     #[arg(long)]
     hidden_lines: bool,
     /// Stalls of the memory: none, fixed, random, dram, with parameters as fixed:rd=2,data=4,wr=1,
-    /// random:seed=1,rd=64,data=64,wr=64 (256ths), dram:banks=4,page=256,miss=6,turn=2,refresh=780,busy=13
+    /// random:seed=1,rd=64,data=64,wr=64 (256ths),
+    /// dram:banks=4,page=256,miss=6,turn=2,refresh=780,busy=13,word=1,line=1
     #[arg(long, value_name = "KIND", default_value = "none")]
     stalls: Waits,
+    /// Clock at which the report tells the traffic in MB/s; without it, in bytes a cycle
+    #[arg(long, value_name = "MHZ", value_parser = mhz)]
+    clock: Option<f64>,
+    #[command(flatten)]
+    look: Look,
     /// Output directory
     #[arg(long, value_name = "DIR", default_value = "out/render")]
     out: PathBuf,
@@ -85,6 +95,10 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
             args.stalls
         ));
     }
+    if let (Engine::Golden | Engine::Scanline, Some(mhz)) = (args.engine, args.clock) {
+        return Err(anyhow!("--clock {mhz}: the golden picture has no clock; draw with --engine fast"));
+    }
+    args.look.check(args.engine)?;
     if args.engine == Engine::Golden && !lines_only && !args.source.is_triangle_file() {
         return shaded(args, &machine, talk);
     }
@@ -102,11 +116,21 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
     let (mut report, verdict) =
         pictures(&args.source.input, &frame, &machine, (args.engine, args.stalls), &out, talk.quiet, |_| ())?;
     report.order = order;
+    if let Some(mhz) = args.clock {
+        report = report.at_clock(mhz);
+    }
+    args.look.at_frame(&frame, &machine, args.stalls, &mut report)?;
     out.write("report.json", document("report", &report)?)?;
     out.write("report.txt", report.text())?;
     out.publish(&FILES)?;
     talk.say(|| document("report", &report), || report.text())?;
     verdict.or_nothing(&args.source.input, frame.drawn() as u64, (machine.width, machine.height))
+}
+
+/// A clock.
+fn mhz(text: &str) -> Result<f64, String> {
+    let clock = text.parse().ok().filter(|mhz| (0.001..=100_000.0).contains(mhz));
+    clock.ok_or_else(|| "permitted: 0.001 to 100000 MHz".to_owned())
 }
 
 /// What becomes of lines behind surfaces.

@@ -9,7 +9,9 @@ mod outcome;
 mod pictures;
 mod why;
 
+use crate::commands::estimate::device;
 use crate::cost::{SynthArgs, Synthesiser, ToolArgs};
+use crate::estimator::Estimator;
 use crate::machine_args::MachineArgs;
 use crate::staging::Staging;
 use crate::verdict::Verdict;
@@ -19,7 +21,7 @@ use edgewalk_explore::sweep::check::check;
 use edgewalk_explore::sweep::evaluate::{Around, missing};
 use edgewalk_explore::sweep::row::Status;
 use edgewalk_explore::sweep::shading::SHADINGS;
-use edgewalk_explore::sweep::{Definition, Judge, Point, Sample, Store, Sweep, run as evaluate, store};
+use edgewalk_explore::sweep::{Definition, Hunt, Judge, Point, Sample, Store, Sweep, run as evaluate, store};
 use edgewalk_machine::Plan;
 use outcome::Outcome;
 use serde_json::Value;
@@ -42,10 +44,14 @@ use std::path::{Path, PathBuf};
   edgewalk sweep teapot.obj --vary shade.kind=none,fast-phong,phong --out out/shading
   edgewalk sweep teapot.obj --vary setup.lanes=1,2,4 --synth ice40-hx8k --out out/cells
   edgewalk sweep teapot.obj --vary fifo.span=1..64 --vary fifo.inflight=1..16 --sample 100 --seed 7 --out out/some
+  edgewalk sweep sphere --vary formats.z_fraction=6..14 --vary setup.lanes=1,2,4 --fits ice40-hx8k --require 'z_error<=1' --out out/fit
+  edgewalk sweep teapot.obj sphere --vary fifo.span=1..64 --vary fifo.inflight=1..16 --vary formats.z_fraction=0..24 \
+--vary formats.color_fraction=4..16 --vary interpolator.adders=1,2,4 --search 2000 --seed 7 --out out/search
   edgewalk sweep plan teapot.obj --vary formats.z_fraction=4..24 --chunks 8 --out out/grid
   edgewalk sweep why 3f2a --out out/sweep
 
-Objectives: cycles z_error color_error z_bound color_bound shading_error shading_mean word_bits, and with --synth lut4 ff carry ram mhz frames_per_s
+Objectives: cycles z_error color_error z_bound color_bound shading_error shading_mean word_bits est_lut4 est_ff est_carry est_ram
+est_cells est_mhz, and with --synth lut4 ff carry ram mhz frames_per_s
 mpixels_per_s mtriangles_per_s mpixels_per_s_per_lut mtriangles_per_s_per_lut"
 )]
 pub struct Args {
@@ -91,14 +97,28 @@ struct What {
     #[arg(long, value_name = "WHICH", default_value = Judge::WORST)]
     judge: String,
     /// Number of machines to take at random
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", group = "some")]
     sample: Option<u32>,
-    /// Seed of --sample
-    #[arg(long, value_name = "S", requires = "sample")]
+    /// Number of machines to look at in a search, for spaces that are too large to be run whole: half of them at random,
+    /// the others neighbours of the best, on the first input; then the better half on twice as many inputs, and so on
+    #[arg(long, value_name = "N", group = "some")]
+    search: Option<u32>,
+    /// Seed of --sample or --search
+    #[arg(long, value_name = "S", requires = "some")]
     seed: Option<u64>,
     /// Skip points without a proved bound of at most this many LSB for the input's triangles
     #[arg(long, value_name = "LSB")]
     bound: Option<f64>,
+    /// What a machine must keep, NAME<=NUMBER or NAME>=NUMBER by the names of the objectives (repeatable). Cells and
+    /// clock are estimated without --synth; with it, only machines that the estimate's error leaves open are built
+    #[arg(long, value_name = "LIMIT")]
+    require: Vec<String>,
+    /// Device that a machine must fit by its estimate: ice40-hx8k, ice40-up5k (repeatable)
+    #[arg(long, value_name = "DEVICE")]
+    fits: Vec<String>,
+    /// Estimate cells and clock of every machine (see `edgewalk estimate`)
+    #[arg(long)]
+    estimate: bool,
     /// Objective of bests and fronts (repeatable)
     #[arg(long, value_name = "NAME")]
     objective: Vec<String>,
@@ -184,7 +204,10 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
             let out = args.what.out()?;
             let sweep = opened(args.what.definition(machine, None)?)?;
             let again = args.retry.iter().map(|retry| Status::from(*retry)).collect::<Vec<_>>();
-            swept(&sweep, out, &again, args.what.synth.tools(), talk)
+            match Hunt::of(&sweep) {
+                Some(hunt) => searched(sweep, hunt, out, &again, args.what.synth.tools(), talk),
+                None => swept(&sweep, out, &again, args.what.synth.tools(), talk),
+            }
         }
     }
 }
@@ -204,7 +227,15 @@ impl What {
             stalls: self.stalls.clone(),
             judge: self.judge.clone(),
             sample: self.sample.map(|points| Sample { points, seed: self.seed.unwrap_or(1) }),
+            search: self.search.map(|points| Sample { points, seed: self.seed.unwrap_or(1) }),
             bound: self.bound,
+            require: self.require.clone(),
+            fits: self
+                .fits
+                .iter()
+                .map(|name| device(name).map(|device| device.name.to_owned()))
+                .collect::<Result<_>>()?,
+            estimate: self.estimate,
             objectives: self.objective.clone(),
             synth: self.synth.definition(&base)?,
             chunks,
@@ -222,6 +253,28 @@ fn swept(sweep: &Sweep, out: &Path, again: &[Status], tools: &ToolArgs, talk: Ta
     let made = points(sweep, &all, (&store, store::by_key(rows)), again, tools, talk)
         .with_context(|| path.display().to_string())?;
     finished(sweep, out, made, talk)
+}
+
+/// Runs a search round by round, then writes what follows from all its rows.
+fn searched(
+    mut sweep: Sweep,
+    mut hunt: Hunt,
+    out: &Path,
+    again: &[Status],
+    tools: &ToolArgs,
+    talk: Talk,
+) -> Result<Verdict> {
+    keep(&sweep, out)?;
+    let path = out.join(ROWS);
+    let (store, rows) = Store::open(&path)?;
+    let (mut rows, mut made) = (store::by_key(rows), 0);
+    while let Some(places) = hunt.next(&mut sweep, &rows) {
+        let of: Vec<&Point> = places.iter().map(|place| &sweep.points[*place]).collect();
+        made += points(&sweep, &of, (&store, rows), again, tools, talk)
+            .with_context(|| path.display().to_string())?;
+        rows = store::by_key(store::read(&path)?);
+    }
+    finished(&sweep, out, made, talk)
 }
 
 /// Runs those of the points that have no row. Returns how many rows it made.
@@ -242,7 +295,12 @@ fn points(
     let bar = progress::bar(todo.len() as u64, "points", talk.quiet);
     let cost = synthesiser.as_ref().map(|synthesiser| |machine: &Plan| synthesiser.cost(machine));
     let cost = cost.as_ref().map(|cost| cost as &(dyn Fn(&Plan) -> _ + Sync));
-    evaluate(sweep, &todo, &Around { store, cost, done: &|| bar.inc(1) })?;
+    let devices = sweep.definition.fits.iter().map(|name| device(name)).collect::<Result<Vec<_>>>()?;
+    let unit = sweep.definition.synth.as_ref().map_or("machine", |of| &of.unit);
+    let estimator = sweep.asks_estimate().then(|| Estimator::new(unit, devices));
+    let estimate = estimator.as_ref().map(|estimator| |machine: &Plan| estimator.value(machine));
+    let estimate = estimate.as_ref().map(|estimate| estimate as &(dyn Fn(&Plan) -> _ + Sync));
+    evaluate(sweep, &todo, &Around { store, cost, estimate, done: &|| bar.inc(1) })?;
     bar.finish_and_clear();
     Ok(todo.len())
 }

@@ -47,6 +47,9 @@ pub struct Args {
     /// Place and route with the seeds 1 to N
     #[arg(long, default_value_t = 5, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1000))]
     seeds: u32,
+    /// Do not count the cells of each unit: one synthesis instead of two
+    #[arg(long)]
+    whole: bool,
     /// Tools that run at once; the number of cores if left out
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
     jobs: Option<u16>,
@@ -80,8 +83,13 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
     targets.dedup();
     let seeds: Vec<u32> = (1..=args.seeds).collect();
     let bar = progress::bar(0, "runs of tools", talk.quiet);
-    let flow =
-        Flow { cache: &cache, limit: Duration::from_secs(args.limit), seeds: &seeds, done: &|| bar.inc(1) };
+    let flow = Flow {
+        cache: &cache,
+        limit: Duration::from_secs(args.limit),
+        seeds: &seeds,
+        by_unit: !args.whole,
+        done: &|| bar.inc(1),
+    };
     bar.set_length(flow.steps() * targets.len() as u64);
     let pool = rayon::ThreadPoolBuilder::new().num_threads(args.jobs.map_or(0, usize::from)).build()?;
     let outcomes: Vec<_> =

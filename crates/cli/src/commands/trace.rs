@@ -1,5 +1,7 @@
 //! `edgewalk trace`: waveforms of the machine's netlist, and counts of its transitions.
 
+mod views;
+
 use crate::Talk;
 use crate::document::document;
 use crate::input::{PortFrame, Source, to_port};
@@ -9,14 +11,16 @@ use crate::suites::of_input;
 use crate::verdict::Verdict;
 use anyhow::{Context, Result, anyhow, ensure};
 use edgewalk_lockstep::StallKind;
-use edgewalk_machine::{Activity, Plan};
+use edgewalk_machine::{Activity, Pass, Plan};
 use edgewalk_netlist::{FstTrace, Labels, Simulator, Transitions, UnitTransitions, VcdTrace};
 use edgewalk_vectors::{Runs, Unit};
 use serde_json::json;
+use std::collections::BTreeSet;
 use std::fs::File;
 use std::io::BufWriter;
 use std::ops::Range;
 use std::path::PathBuf;
+use views::Views;
 
 /// Run the machine's netlist and write the waveform or the transitions of every signal that can change.
 ///
@@ -30,7 +34,10 @@ use std::path::PathBuf;
   edgewalk trace sphere --out out/sphere.saif --triangles 100 --cycles 100000
   edgewalk trace sphere --out out/t.vcd --from 1000 --to 1500
   edgewalk trace sphere --out out/t.vcd --triangles 100 --pixel 320 200
-  edgewalk trace sphere --out out/t.vcd --triangles 100 --triangle 57")]
+  edgewalk trace sphere --out out/t.vcd --triangles 100 --triangle 57
+  edgewalk trace sphere --out out/t.fst --views
+  gtkwave out/t.fst out/t.gtkw
+  surfer --command-file out/t.sucl out/t.fst")]
 pub struct Args {
     #[command(flatten)]
     source: Source,
@@ -52,6 +59,10 @@ pub struct Args {
     /// The writes of this pixel, with 40 cycles before the first of them
     #[arg(long, num_args = 2, value_names = ["X", "Y"], conflicts_with = "triangle")]
     pixel: Option<Vec<u32>>,
+    /// Write save files beside the waveform, with the ports in groups and a format for each: .gtkw for GTKWave, .sucl
+    /// for Surfer
+    #[arg(long)]
+    views: bool,
     /// The cycles from the entry of this triangle to its last write; 0 is the first triangle
     #[arg(long, value_name = "N")]
     triangle: Option<u32>,
@@ -81,6 +92,11 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
     if !KINDS.contains(&kind) {
         return Err(anyhow!("--out {}: the file must end in .vcd, .fst or .saif", args.out.display()));
     }
+    ensure!(
+        !args.views || kind != "saif",
+        "--views --out {}: a SAIF has no waveform; permitted with .vcd and .fst",
+        args.out.display()
+    );
     let name = args.out.file_name().and_then(|n| n.to_str()).context("--out: no file name")?;
     let folder = args.out.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(".".as_ref());
     let window = window(args, &machine, &port)?;
@@ -88,9 +104,15 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
     let mut file = Some(out.create(name)?);
     let mut wave: Option<Wave> = None;
     let mut failure: Result<()> = Ok(());
+    let mut there = BTreeSet::new();
     let mut cycle = 0;
     let triangles = port.triangles.iter().take(args.triangles).copied();
-    edgewalk_lockstep::render_rtl_with(&machine, triangles, port.state()?, StallKind::None, |sim| {
+    let passes = [Pass { triangles: traced, ..Pass::all(port.state()?) }];
+    edgewalk_lockstep::render_rtl_with(&machine, triangles, &passes, port.words(), |sim| {
+        if cycle == 0 && args.views {
+            let changing = sim.signals().filter(|(_, signal)| !sim.is_constant(*signal));
+            there = changing.map(|(path, _)| path.to_owned()).collect();
+        }
         failure = sample(&mut wave, &mut file, kind, sim, window.contains(&cycle));
         cycle += 1;
         failure.is_ok() && cycle < window.end
@@ -113,12 +135,23 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
         }
         None => {}
     }
-    out.publish(&[name])?;
+    let mut written = vec![name.to_owned()];
+    if args.views {
+        let views = Views::new(&machine, TOP, &there, kind == "fst");
+        let stem = name.strip_suffix(kind).unwrap_or(name);
+        for (ending, text) in [("gtkw", views.gtkwave(&machine)), ("sucl", views.surfer(&machine))] {
+            let name = format!("{stem}{ending}");
+            out.write(&name, text)?;
+            written.push(name);
+        }
+    }
+    out.publish(&written)?;
     talk.say(
         || document("trace", report(args, cycles, machine.hash(), units.as_deref())),
         || {
             let table = units.as_deref().map(|units| table(units, cycles)).unwrap_or_default();
-            format!("{table}{cycles} cycles -> {}", args.out.display())
+            let views = if args.views { "; views: .gtkw, .sucl" } else { "" };
+            format!("{table}{cycles} cycles -> {}{views}", args.out.display())
         },
     )?;
     Ok(Verdict::Pass)

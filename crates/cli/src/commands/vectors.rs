@@ -4,7 +4,7 @@ use crate::document::document;
 use crate::input::{Source, to_port};
 use crate::machine_args::MachineArgs;
 use crate::staging::Staging;
-use crate::suites::{self, Set, of_input, only, stalls};
+use crate::suites::{self, Set, check_unit, of_input, only, stalls};
 use crate::verdict::Verdict;
 use crate::{Talk, own};
 use anyhow::{Result, anyhow};
@@ -44,8 +44,8 @@ pub struct Args {
     /// shadow.own_pass own_map and own_picture; with SHADE shade
     #[arg(long, value_name = "NAME")]
     suite: Vec<String>,
-    /// Units: machine, setup, edge, span, term, pixel, texel, bump, normal, lamp, shade, project, shadow, depth,
-    /// blend; all units of the suite if left out
+    /// Units: machine, setup, edge, poly, span, term, pixel, texel, bump, normal, lamp, shade, project, shadow,
+    /// dither, depth, blend; all units of the suite if left out
     #[arg(long, value_name = "NAME", value_parser = unit)]
     unit: Vec<Unit>,
     /// Cases: of every suite those of these names; all of them if left out
@@ -107,7 +107,10 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
             (suites, vec![dut.unit])
         }
         None if args.unit.is_empty() => (suites, Unit::all(&machine)),
-        None => (suites, args.unit.clone()),
+        None => {
+            args.unit.iter().try_for_each(|unit| check_unit(&machine, *unit))?;
+            (suites, args.unit.clone())
+        }
     };
     let out = Staging::new(&args.out)?;
     let set = Set {

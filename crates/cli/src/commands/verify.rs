@@ -1,6 +1,7 @@
 //! `edgewalk verify`: model against netlist in every port and cycle, then the emitted Verilog in both simulators.
 
 mod difference;
+mod events;
 mod own;
 
 use crate::document::document;
@@ -20,8 +21,10 @@ use edgewalk_vectors::{
     Files, Outcome, Runs, Simulator, StallKind, Suite, Tables, Trace, Unit, design, directory, reached,
     simulate,
 };
+use events::Events;
 use serde::Serialize;
 use serde_json::json;
+use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
@@ -92,6 +95,9 @@ struct Check {
     /// What differs first.
     #[serde(skip_serializing_if = "Option::is_none")]
     difference: Option<String>,
+    /// How often the run met the events that the bench of a user's design counts.
+    #[serde(skip)]
+    met: BTreeMap<String, u64>,
 }
 
 impl Check {
@@ -113,14 +119,17 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
     };
     let suites = [vec![input], directed(&machine)?, functions(&machine)?].concat();
     let suites = only(suites, &args.only)?;
-    let checks = match &wiring {
-        Some(wiring) => own::checks(args, &machine, wiring, suites, talk)?,
-        None => ours(args, &machine, suites, talk)?,
+    let (checks, events) = match &wiring {
+        Some(wiring) => {
+            let (checks, events) = own::checks(args, &machine, wiring, suites, talk)?;
+            (checks, Some(events))
+        }
+        None => (ours(args, &machine, suites, talk)?, None),
     };
     if let Some(file) = &args.junit {
         write_junit(file, &checks)?;
     }
-    print(&machine, wiring.as_ref(), &checks, talk)?;
+    print(&machine, wiring.as_ref().zip(events.as_ref()), &checks, talk)?;
     Ok(checks.iter().fold(Verdict::Pass, |all, c| all.and(c.verdict())))
 }
 
@@ -186,7 +195,7 @@ fn against_netlist(netlist: &Netlist, suite: &Suite, trace: &Trace, out: &Path) 
         Err(error) => return Err(error.into()),
     };
     let (suite, unit) = (suite.name.clone(), trace.interface.unit.name());
-    Ok(Check { suite, unit, against: "netlist", checked, expected, difference })
+    Ok(Check { suite, unit, against: "netlist", checked, expected, difference, met: BTreeMap::new() })
 }
 
 fn write(files: Files) -> Result<Scratch> {
@@ -212,13 +221,16 @@ fn in_simulator(
     let work = Scratch::temporary()?;
     let outcome = simulate(simulator, folder, work.path(), limit)
         .with_context(|| format!("{} {} (--no-simulators goes without)", suite.name, unit.name()))?;
-    let (checked, difference) = match outcome {
-        Outcome::Pass { checked } => (checked, None),
-        Outcome::Mismatch { checked, lines, .. } => (checked, Some(lines.join("\n      "))),
-        Outcome::Vacuous => (0, None),
+    let (checked, difference, met) = match outcome {
+        Outcome::Pass { checked, met } => (checked, None, met),
+        Outcome::Mismatch { checked, lines, .. } => (checked, Some(lines.join("\n      ")), BTreeMap::new()),
+        Outcome::Vacuous => {
+            let none = (expected > 0).then(|| format!("no token came: expected {expected}, found 0"));
+            (0, none, BTreeMap::new())
+        }
     };
     let suite = suite.name.clone();
-    Ok(Check { suite, unit: unit.name(), against: simulator.name(), checked, expected, difference })
+    Ok(Check { suite, unit: unit.name(), against: simulator.name(), checked, expected, difference, met })
 }
 
 fn write_junit(file: &Path, checks: &[Check]) -> Result<()> {
@@ -238,19 +250,19 @@ fn write_junit(file: &Path, checks: &[Check]) -> Result<()> {
     out.publish(&[name])
 }
 
-fn print(machine: &Plan, own: Option<&Wiring>, checks: &[Check], talk: Talk) -> Result<()> {
-    let not_compared = own.map(Wiring::not_compared);
+fn print(machine: &Plan, own: Option<(&Wiring, &Events)>, checks: &[Check], talk: Talk) -> Result<()> {
+    let not_compared = own.map(|(wiring, _)| wiring.not_compared());
     let json = || {
         let mut report = json!({ "machine": machine.hash(), "checks": checks });
-        if let Some(wiring) = own {
+        if let Some((Wiring { dut, .. }, events)) = own {
             report["dut"] =
-                json!({ "file": wiring.dut.file, "top": wiring.dut.top, "not_compared": not_compared });
+                json!({ "file": dut.file, "top": dut.top, "not_compared": not_compared, "events": events });
         }
         document("verify", report)
     };
     let text = || {
         let mut text = format!("machine {}\n", machine.hash());
-        if let Some(Wiring { dut, .. }) = own {
+        if let Some((Wiring { dut, .. }, _)) = own {
             text = format!(
                 "{} of {} beside {} of machine {}\n",
                 dut.top,
@@ -274,7 +286,7 @@ fn print(machine: &Plan, own: Option<&Wiring>, checks: &[Check], talk: Talk) -> 
                 _ = writeln!(text, "      {d}");
             }
         }
-        text
+        text + &own.map(|(_, events)| events.lines()).unwrap_or_default()
     };
     talk.say(json, text)
 }

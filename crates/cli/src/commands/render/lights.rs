@@ -40,11 +40,11 @@ pub fn run(args: &Args, machine: &Plan, talk: Talk) -> Result<Verdict> {
         golden.push(exact);
         drawn.push(part);
     }
-    let (together, triangles) = match sum(&drawn).filter(|_| are_added(&frames)) {
-        Some(added) => (added, to_port(&frames[0], machine)?.triangles),
+    let (together, port) = match sum(&drawn).filter(|_| are_added(&frames)) {
+        Some(added) => (added, to_port(&frames[0], machine)?),
         None => {
             let port = in_passes(&frames, machine).with_context(|| source.input.clone())?;
-            (draw_port(args.engine, &port, machine, args.stalls, talk.quiet)?, port.triangles)
+            (draw_port(args.engine, &port, machine, args.stalls, talk.quiet)?, port)
         }
     };
     let by_host = are_added(&frames);
@@ -56,13 +56,20 @@ pub fn run(args: &Args, machine: &Plan, talk: Talk) -> Result<Verdict> {
         picture::write_rgb(&out, "golden.png", w, h, &golden.rgb)?;
     }
     picture::write_rgb(&out, "image.png", w, h, &together.rgb)?;
-    let setup = SetupReport::new(machine, &triangles);
+    let setup = SetupReport::new(machine, &port.triangles);
     let triangles = surface.triangles.len() as u64;
-    let report = Report {
+    let mut report = Report {
         parts: Some(passes),
         setup: Some(setup),
         ..Report::new(&source.input, triangles, machine, &together, args.stalls)
     };
+    match by_host {
+        true => args.look.refuse()?,
+        false => args.look.at_port(&port, machine, args.stalls, &mut report)?,
+    }
+    if let Some(mhz) = args.clock {
+        report = report.at_clock(mhz);
+    }
     out.write("report.json", document("report", &report)?)?;
     out.write("report.txt", report.text())?;
     out.publish(&FILES)?;

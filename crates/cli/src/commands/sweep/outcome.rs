@@ -8,11 +8,12 @@ use crate::staging::Staging;
 use crate::talk::Talk;
 use crate::verdict::Verdict;
 use anyhow::Result;
-use edgewalk_explore::page::{number, page, rule};
+use edgewalk_explore::page::{number, page, rule, ruled_out};
 use edgewalk_explore::sweep::csv::csv;
 use edgewalk_explore::sweep::judge::Memory;
 use edgewalk_explore::sweep::objective::OBJECTIVES;
 use edgewalk_explore::sweep::row::Status;
+use edgewalk_explore::sweep::search::extent;
 use edgewalk_explore::sweep::table::{Candidate, Table};
 use edgewalk_explore::sweep::{Judge, Objective, Sample, Sweep};
 use edgewalk_machine::Machine;
@@ -56,10 +57,13 @@ impl<'o> Outcome<'o> {
         staging.write(TABLE, csv(&self.table))?;
         for (objective, candidate) in self.bests() {
             if let Some(machine) = self.machine(candidate) {
+                let of = match extent(self.table.sweep) {
+                    Some(_) => format!("{} looked at, not of all,", self.table.machines.len()),
+                    None => self.table.machines.len().to_string(),
+                };
                 let text = format!(
-                    "# machine {}, best of {} for {}: {} ({})\n{}",
+                    "# machine {}, best of {of} for {}: {} ({})\n{}",
                     machine.hash(),
-                    self.table.machines.len(),
                     objective.name,
                     self.table.value(objective, candidate),
                     objective.doc,
@@ -92,14 +96,24 @@ impl<'o> Outcome<'o> {
             flag("sample", &[points.to_string()]);
             flag("seed", &[seed.to_string()]);
         }
+        if let Some(Sample { points, seed }) = definition.search {
+            flag("search", &[points.to_string()]);
+            flag("seed", &[seed.to_string()]);
+        }
         flag("bound", definition.bound.map(|bound| bound.to_string()).as_slice());
+        flag("require", &definition.require);
+        flag("fits", &definition.fits);
         flag("objective", &definition.objectives);
         if let Some(synth) = &definition.synth {
             flag("synth", std::slice::from_ref(&synth.target));
             flag("synth-unit", std::slice::from_ref(&synth.unit));
             flag("synth-seeds", &[synth.seeds.to_string()]);
         }
-        flag("out", &[self.out.display().to_string()]);
+        if definition.estimate {
+            words.push("--estimate".to_owned());
+        }
+        let mut flag = |name: &str, value: &str| words.extend([format!("--{name}"), value.to_owned()]);
+        flag("out", &self.out.display().to_string());
         words.iter().map(|word| quoted(word)).collect::<Vec<_>>().join(" ")
     }
 
@@ -147,11 +161,30 @@ impl<'o> Outcome<'o> {
             "status": statuses,
             "faults": self.table.faults(),
             "machines": self.table.machines.len(),
+            "extent": self.extent(),
+            "ruled_out": self.table.ruled_out().into_iter().map(|(text, machines)| json!({ "required": text, "machines": machines })).collect::<Vec<_>>(),
             "judge": self.table.sweep.definition.judge,
             "best": bests,
             "front": front,
         });
         document("sweep", value)
+    }
+
+    /// Which of all machines were looked at.
+    fn extent(&self) -> Value {
+        let Sweep { definition, whole, rounds, .. } = self.table.sweep;
+        let kind = match (definition.search, definition.sample) {
+            (Some(_), _) => "search",
+            (None, Some(_)) => "sample",
+            (None, None) => "whole",
+        };
+        json!({
+            "kind": kind,
+            "exhaustive": extent(self.table.sweep).is_none(),
+            "machines_of_space": whole,
+            "seed": definition.search.or(definition.sample).map(|of| of.seed),
+            "rounds": rounds,
+        })
     }
 
     /// As text. Writing to a string cannot fail.
@@ -174,8 +207,11 @@ impl<'o> Outcome<'o> {
             let faults = self.table.faults();
             _ = writeln!(t, "{faults} rows show an error beyond what is proved: a fault of edgewalk");
         }
-        if let Some(rule) = rule(self.table.sweep) {
-            _ = writeln!(t, "{rule}");
+        for line in extent(self.table.sweep).into_iter().chain(rule(self.table.sweep)) {
+            _ = writeln!(t, "{line}");
+        }
+        for line in ruled_out(&self.table) {
+            _ = writeln!(t, "{line}");
         }
         for (objective, candidate) in self.bests() {
             let value = self.table.value(objective, candidate);

@@ -14,7 +14,7 @@ use std::fmt::Write as _;
 use std::path::Path;
 
 /// What a row's key is made of.
-const PARTS: [&str; 6] = ["machine", "input", "input_hash", "stalls", "version", "synthesis"];
+const PARTS: [&str; 7] = ["machine", "input", "input_hash", "stalls", "version", "synthesis", "require"];
 
 /// Tells it of the row whose key begins so.
 pub fn run(key: &str, out: &Path, talk: Talk) -> Result<Verdict> {

@@ -5,7 +5,7 @@ use edgewalk_synth::{Blocks, Cache, Cells, CriticalPath, Design, Memory, Outcome
 use serde::Serialize;
 use std::fmt::Write as _;
 
-/// All that is told.
+/// The report, as text and as JSON.
 #[derive(Serialize)]
 pub struct Report {
     /// Hash of the machine.

@@ -1,0 +1,239 @@
+//! `edgewalk calibrate`: synthesises machines, and fits the estimate to them.
+//!
+//! ```text
+//!  machines.txt ─> those without a row ─> yosys, nextpnr ─> measured.csv ─> fit ─> ice40.json
+//! ```
+
+use crate::Talk;
+use crate::cost::cache_folder;
+use crate::document::document;
+use crate::machine_args::MachineArgs;
+use crate::progress;
+use crate::scratch::Scratch;
+use crate::verdict::Verdict;
+use anyhow::{Context, Result, anyhow};
+use edgewalk_machine::Plan;
+use edgewalk_synth::estimate::{Delays, Fit, Measured, Sample, Structure};
+use edgewalk_synth::{Cache, Design, Flow, Part, Target};
+use rayon::prelude::*;
+use std::path::{Path, PathBuf};
+use std::time::Duration;
+
+/// Synthesise machines for the HX8K, keep what the tools say in a table, and fit the factors of `edgewalk estimate` to
+/// it.
+///
+/// Every second machine is held out: nothing is fitted to it, and the errors are told of those. Of the others the
+/// engine (all units but setup) is synthesised by itself too: it fits the device more often, so it has a clock. A
+/// machine whose netlist is as it was when its row was written is not synthesised again, so the command goes on where
+/// it was stopped. --machine and --set count for nothing here. Tools: apt-get install yosys nextpnr-ice40.
+#[derive(clap::Args)]
+#[command(after_help = "Examples:
+  edgewalk calibrate --count 0
+  edgewalk calibrate --count 200
+  edgewalk calibrate --machines crates/synth/data/depth.txt --unit depth --count 60
+  nice -n 19 edgewalk calibrate --count 60 --place-below 4000")]
+pub struct Args {
+    /// List of machines, a preset and settings behind spaces on each line
+    #[arg(long, value_name = "FILE", default_value = "crates/synth/data/machines.txt")]
+    machines: PathBuf,
+    /// Table of what was measured
+    #[arg(long, value_name = "FILE", default_value = "crates/synth/data/measured.csv")]
+    data: PathBuf,
+    /// File of the fit
+    #[arg(long, value_name = "FILE", default_value = "crates/synth/data/ice40.json")]
+    fit: PathBuf,
+    /// Synthesise the first N machines of the list; the fit takes all rows of the table
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    count: usize,
+    /// Synthesise this part of each machine, and hold all of them out; the machines themselves if left out
+    #[arg(long, value_name = "UNIT")]
+    unit: Option<String>,
+    /// Place and route designs of at most so many packed cells: nearly full devices take minutes
+    #[arg(long, value_name = "CELLS", default_value_t = 5000)]
+    place_below: u64,
+    /// Time limit of each run of a tool, seconds
+    #[arg(long, default_value_t = 3600, value_name = "SECONDS", value_parser = clap::value_parser!(u64).range(1..))]
+    limit: u64,
+    /// Folder of the cache; that of `edgewalk synth` if left out
+    #[arg(long, value_name = "DIR")]
+    cache: Option<PathBuf>,
+}
+
+/// The device that is measured.
+const TARGET: &str = "ice40-hx8k";
+
+/// Runs the command.
+pub fn run(args: &Args, talk: Talk) -> Result<Verdict> {
+    let list = read(&args.machines)?;
+    let table = if args.data.exists() { read(&args.data)? } else { String::new() };
+    let mut rows = Measured::rows(&table).map_err(|why| anyhow!("{}: {why}", args.data.display()))?;
+    let lines: Vec<&str> = list.lines().map(str::trim).filter(|line| !line.is_empty()).collect();
+    if args.count > lines.len() {
+        return Err(anyhow!(
+            "--count {}: {} has {} machines",
+            args.count,
+            args.machines.display(),
+            lines.len()
+        ));
+    }
+    let bar = progress::bar(args.count as u64, "machines", talk.quiet);
+    if args.count > 0 {
+        let folder = cache_folder(args.cache.as_deref())?;
+        let scratch = Scratch::within(&folder).with_context(|| format!("--cache {}", folder.display()))?;
+        let bench = Bench {
+            args,
+            cache: Cache::new(folder, scratch.path().to_owned()),
+            target: Target::named(TARGET)?,
+        };
+        for (place, line) in lines.iter().take(args.count).enumerate() {
+            let plan = plan(line)?;
+            let held_out = place % 2 == 1 || args.unit.is_some();
+            let parts: &[&str] = match &args.unit {
+                Some(unit) => &[unit],
+                None if held_out => &["machine"],
+                None => &["machine", "engine"],
+            };
+            for part in parts.iter().copied() {
+                if bench.add(line, part, held_out, &plan, &mut rows)? {
+                    std::fs::write(&args.data, Measured::table(&rows))
+                        .with_context(|| args.data.display().to_string())?;
+                }
+            }
+            bar.inc(1);
+        }
+    }
+    bar.finish_and_clear();
+    let (samples, stale) = samples(rows)?;
+    if samples.is_empty() {
+        return Err(anyhow!("{}: no row is of a netlist as it is today; add --count N", args.data.display()));
+    }
+    let again = |sample: &Sample, delays: &Delays| {
+        structure(&sample.measured, delays).unwrap_or_else(|_| sample.structure.clone())
+    };
+    let fit = Fit::to(&samples, again);
+    std::fs::write(&args.fit, document("fit", &fit)?).with_context(|| args.fit.display().to_string())?;
+    let report = Report { rows: samples.len(), stale, fit };
+    talk.say(|| document("calibrate", &report), || report.text())?;
+    Ok(Verdict::Pass)
+}
+
+#[derive(serde::Serialize)]
+struct Report {
+    /// Rows that were fitted to or held out.
+    rows: usize,
+    /// Rows of netlists that have changed since, which count for nothing.
+    stale: usize,
+    fit: Fit,
+}
+
+impl Report {
+    fn text(&self) -> String {
+        let errors = &self.fit.errors;
+        format!(
+            "{} rows, {} of netlists that have changed since\nheld out: {} machines, {} of them placed; nine in ten within: \
+             LUT4 {:.1} %, cells {:.1} %, MHz {:.1} %\n",
+            self.rows,
+            self.stale,
+            errors.machines,
+            errors.placed,
+            errors.lut4 * 100.0,
+            errors.cells * 100.0,
+            errors.mhz * 100.0
+        )
+    }
+}
+
+fn read(path: &Path) -> Result<String> {
+    std::fs::read_to_string(path).with_context(|| path.display().to_string())
+}
+
+/// The machine of a line: a preset, and settings behind spaces.
+fn plan(line: &str) -> Result<Plan> {
+    MachineArgs::alone(&line.split_whitespace().collect::<Vec<_>>().join(","))
+}
+
+fn structure(of: &Measured, delays: &Delays) -> Result<Structure> {
+    let plan = plan(&of.machine)?;
+    let part = Part::named(&of.part, &plan)?;
+    part.structure(&plan, delays)
+        .map_err(|error| anyhow!("{}: the netlist cannot be built: {error}", of.machine))
+}
+
+/// Rows with what their netlists come to today, and how many rows are of other netlists.
+fn samples(rows: Vec<Measured>) -> Result<(Vec<Sample>, usize)> {
+    let delays = Fit::before().delays;
+    let all = rows.len();
+    let structures = rows.par_iter().map(|row| structure(row, &delays)).collect::<Result<Vec<_>>>()?;
+    let samples: Vec<Sample> = rows
+        .into_iter()
+        .zip(structures)
+        .filter(|(measured, structure)| structure.shape == measured.shape)
+        .map(|(measured, structure)| Sample { measured, structure })
+        .collect();
+    let stale = all - samples.len();
+    Ok((samples, stale))
+}
+
+/// Where machines are measured.
+struct Bench<'b> {
+    args: &'b Args,
+    cache: Cache,
+    target: Target,
+}
+
+impl Bench<'_> {
+    /// Measures a part of a machine, unless there is a row of the same netlist. Whether there is a new row.
+    fn add(
+        &self,
+        line: &str,
+        part: &str,
+        held_out: bool,
+        plan: &Plan,
+        rows: &mut Vec<Measured>,
+    ) -> Result<bool> {
+        let design_part = Part::named(part, plan).map_err(|error| anyhow!("{line}: {error}"))?;
+        let built = |error| anyhow!("{line}: the netlist cannot be built: {error}");
+        let structure = design_part.structure(plan, &Fit::before().delays).map_err(built)?;
+        let same = |row: &Measured| row.part == part && row.shape == structure.shape;
+        // An engine that many machines have is measured once.
+        if rows.iter().any(|row| same(row) && (row.machine == line || part != "machine")) {
+            return Ok(false);
+        }
+        let design = Design::new(plan, design_part).map_err(built)?;
+        let flow = |seeds| Flow {
+            cache: &self.cache,
+            limit: Duration::from_secs(self.args.limit),
+            seeds,
+            by_unit: false,
+            done: &|| {},
+        };
+        let mut outcome = flow(&[]).run(&design, &self.target);
+        if outcome
+            .packed
+            .as_ref()
+            .is_some_and(|packed| packed.lacks.is_none() && packed.design <= self.args.place_below)
+        {
+            outcome = flow(&[1]).run(&design, &self.target);
+        }
+        if let Some(stop) = outcome.stop {
+            return Err(stop.into());
+        }
+        let Some(cells) = outcome.cells else {
+            return Err(anyhow!("{line}: {part}: {}", outcome.reasons.join("; ")));
+        };
+        rows.retain(|row| row.machine != line || row.part != part);
+        rows.push(Measured {
+            machine: line.to_owned(),
+            part: part.to_owned(),
+            shape: structure.shape,
+            held_out,
+            cells: [cells.lut4, cells.carry, cells.ff, cells.ram],
+            packed: outcome.packed.map(|packed| packed.design),
+            // As the table has it: a fit to rows just measured is that of the same rows read again.
+            mhz: outcome.mhz.map(|mhz| (mhz.median * 100.0).round() / 100.0),
+            yosys: outcome.yosys.unwrap_or_default().replace(',', ";"),
+            nextpnr: outcome.nextpnr.unwrap_or_default().replace(',', ";"),
+        });
+        Ok(true)
+    }
+}

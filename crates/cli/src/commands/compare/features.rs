@@ -1,0 +1,221 @@
+//! `edgewalk compare` of any number of machines on any number of inputs: what their features cost, as one table.
+//!
+//! ```text
+//!  machines ─> netlists ─> estimate of each unit ─┐
+//!  machines x inputs ─> pictures, cycles ─────────┼─> text, JSON, page
+//!  inputs ─> shading equation ─> distance ────────┘
+//! ```
+
+mod page;
+mod text;
+
+use super::{Args, Asked, apart, drawn};
+use crate::Talk;
+use crate::cost::Synthesiser;
+use crate::document::document;
+use crate::estimator::Estimator;
+use crate::machine_args::MachineArgs;
+use crate::staging::Staging;
+use crate::verdict::Verdict;
+use anyhow::{Context, Result, anyhow};
+use edgewalk_explore::sweep::equation::{Distance, Equation, Measure};
+use edgewalk_golden::Shading;
+use edgewalk_host::input::{Input, Shaded};
+use edgewalk_judge::passes::beside_golden;
+use edgewalk_judge::report::Report;
+use edgewalk_machine::Plan;
+use edgewalk_model::Waits;
+use edgewalk_synth::{Part, Target, memories};
+use serde_json::{Value, json};
+use std::path::Path;
+
+/// What a run may write.
+const FILES: [&str; 2] = ["features.json", "features.txt"];
+
+/// The word behind a machine's colon that asks for Gouraud shading with a map for each light.
+const SHADOWS: &str = "shadows";
+
+/// Devices of which the table says whether a machine fits.
+const DEVICES: [&str; 2] = ["ice40-hx8k", "ice40-up5k"];
+
+/// A machine of the table.
+struct Column {
+    /// As it was asked for.
+    name: String,
+    /// Without the word for shadows.
+    asked: String,
+    shadows: bool,
+    /// With the screen that it has by itself.
+    plan: Plan,
+}
+
+impl Column {
+    fn new(name: &str, machine: &MachineArgs) -> Result<Column> {
+        let (asked, shadows) = match name.strip_suffix(SHADOWS).and_then(|rest| rest.strip_suffix(':')) {
+            Some(asked) => (asked, true),
+            None => (name, false),
+        };
+        let plan = machine.named(apart(asked)?.0, None, &[])?;
+        Ok(Column { name: name.to_owned(), asked: asked.to_owned(), shadows, plan })
+    }
+
+    /// Cells by unit, and the memories.
+    fn cost(&self, synthesiser: Option<&Synthesiser>) -> Result<Value> {
+        let devices = DEVICES.map(Target::named).into_iter().collect::<Result<Vec<_>, _>>();
+        let whole = Estimator::new("machine", devices.map_err(|error| anyhow!("{error}"))?);
+        let units = self.plan.units().map(|unit| {
+            json!({ "unit": unit.name, "estimate": Estimator::new(unit.name, Vec::new()).value(&self.plan) })
+        });
+        let memories: Vec<Value> = memories(&self.plan, Part::MACHINE)
+            .into_iter()
+            .map(|memory| {
+                let bits = memory.words * memory.bits;
+                json!({ "memory": memory.name, "words": memory.words, "word_bits": memory.bits, "bits": bits })
+            })
+            .collect();
+        let bits: u64 = memories.iter().filter_map(|memory| memory["bits"].as_u64()).sum();
+        let mut cost = json!({
+            "machine": self.name,
+            "hash": self.plan.hash(),
+            "units": units.collect::<Vec<_>>(),
+            "estimate": whole.value(&self.plan),
+            "memories": memories,
+            "memory_bits": bits,
+        });
+        if let Some(synthesiser) = synthesiser {
+            let measured = synthesiser.cost(&self.plan);
+            cost["synth"] = measured.unwrap_or_else(|(_, why)| json!({ "reasons": [why] }));
+        }
+        Ok(cost)
+    }
+}
+
+/// A picture of the table.
+struct Picture {
+    report: Report,
+    /// Cycles of the lights' maps.
+    maps: u64,
+    distance: Option<Distance>,
+    verdict: Verdict,
+}
+
+impl Picture {
+    fn value(&self) -> Result<Value> {
+        let report = serde_json::to_value(&self.report)?;
+        let at = |place: &str| report.pointer(place).cloned().unwrap_or(Value::Null);
+        Ok(json!({
+            "cycles": at("/cycles/total"),
+            "map_cycles": self.maps,
+            "all_cycles": at("/cycles/total").as_u64().map(|cycles| cycles + self.maps),
+            "fragments": at("/fragments"),
+            "bytes": at("/traffic/bytes"),
+            "z_error": at("/comparison/z_error"),
+            "color_error": at("/comparison/color_error"),
+            "shading_error": self.distance.map(|distance| distance.largest),
+            "shading_mean": self.distance.map(|distance| distance.mean),
+        }))
+    }
+}
+
+/// Runs the command.
+pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
+    if args.adapt {
+        return Err(anyhow!(
+            "--adapt: not permitted for a table of machines, as each input would change them; set the keys behind the machines' names"
+        ));
+    }
+    let names = [&args.a, &args.b].into_iter().chain(&args.with);
+    let columns = names.map(|name| Column::new(name, machine)).collect::<Result<Vec<_>>>()?;
+    let shaded = Shaded::Corners(Shading::Gouraud);
+    let inputs = args.inputs.iter().map(|name| Input::open(name, shaded)).collect::<Result<Vec<_>>>()?;
+    let synthesiser = match args.synth.definition(&columns[0].plan)? {
+        Some(of) => {
+            let synthesiser = Synthesiser::new(&of, args.synth.tools())?;
+            synthesiser.check()?;
+            Some(synthesiser)
+        }
+        None => None,
+    };
+    let out = Staging::new(&args.out)?;
+    let (mut machines, mut verdict, mut drawn) = (Vec::new(), Verdict::Pass, 0);
+    for column in &columns {
+        let mut cost = column.cost(synthesiser.as_ref())?;
+        let mut rows = Vec::new();
+        for input in &inputs {
+            let mut row = json!({ "input": input.name() });
+            match picture(column, input, args, machine) {
+                Ok(picture) => {
+                    verdict = verdict.and(picture.verdict);
+                    drawn += 1;
+                    let told = picture.value()?;
+                    told.as_object().into_iter().flatten().for_each(|(key, value)| row[key] = value.clone());
+                }
+                Err(why) => row["reason"] = format!("{why:#}").into(),
+            }
+            rows.push(row);
+        }
+        cost["inputs"] = rows.into();
+        machines.push(cost);
+    }
+    if drawn == 0 {
+        let why = machines[0].pointer("/inputs/0/reason").and_then(Value::as_str).unwrap_or_default();
+        return Err(anyhow!("no machine draws any of the inputs; the first: {why}"));
+    }
+    let told = json!({
+        "stalls": args.stalls.to_string(),
+        "inputs": inputs.iter().map(Input::name).collect::<Vec<_>>(),
+        "machines": machines,
+    });
+    let (json, text) = (document("features", &told)?, text::text(&told));
+    if let Some(file) = &args.page {
+        write(file, &page::page(&told))?;
+    }
+    out.write("features.json", &json)?;
+    out.write("features.txt", &text)?;
+    out.publish(&FILES)?;
+    talk.say(|| Ok(json.clone()), || text.clone())?;
+    Ok(verdict)
+}
+
+/// Writes the page where it was asked for.
+fn write(file: &Path, page: &str) -> Result<()> {
+    std::fs::write(file, page).with_context(|| format!("--page {}", file.display()))
+}
+
+/// Draws an input on a machine, and compares it with the shading equation.
+fn picture(column: &Column, input: &Input, args: &Args, machine: &MachineArgs) -> Result<Picture> {
+    let asked = Asked::new(&column.asked, input, args, machine)?;
+    if column.shadows {
+        return shadowed(&asked, args.stalls);
+    }
+    let equation = Equation::of(&asked.input, &asked.plan);
+    let mut measure = equation.as_ref().map(Equation::measure);
+    let mut maps = 0;
+    let report = drawn(&asked, args.stalls, |raster| {
+        maps = raster.lights.iter().map(|light| light.cycles.total).sum();
+        measure.iter_mut().for_each(|measure| measure.add(raster));
+        Ok(())
+    })?;
+    let verdict = report.comparison.as_ref().map_or(Verdict::Vacuous, |found| found.verdict());
+    Ok(Picture { report, maps, distance: measure.map(Measure::distance), verdict })
+}
+
+/// Draws a scene with a map for each of its lights, beside the equation with shadows by rays.
+fn shadowed(asked: &Asked, waits: Waits) -> Result<Picture> {
+    if waits != Waits::Never {
+        return Err(anyhow!(":{SHADOWS}: permitted with --stalls none"));
+    }
+    let (scene, surface) = asked.input.surface(&asked.plan).ok_or_else(|| {
+        anyhow!(":{SHADOWS}: a triangle file brings its own maps, the line `shadow`; leave :{SHADOWS} out")
+    })?;
+    let (drawn, _, passes) = beside_golden(scene, &surface, &asked.plan)?;
+    let equation = Equation::with_shadows(&asked.input, &asked.plan);
+    let distance = equation.as_ref().map(|equation| {
+        let mut measure = equation.measure();
+        measure.add(&drawn);
+        measure.distance()
+    });
+    let maps = drawn.lights.iter().map(|light| light.cycles.total).sum();
+    let report = Report::new(asked.input.name(), surface.triangles.len() as u64, &asked.plan, &drawn, waits);
+    Ok(Picture { report, maps, distance, verdict: passes.verdict() })
+}

@@ -1,0 +1,32 @@
+//! The estimate of one machine after another, for sweeps and comparisons.
+
+use edgewalk_machine::Plan;
+use edgewalk_synth::estimate::{Fit, fits};
+use edgewalk_synth::{Part, Target};
+use serde_json::{Value, json};
+
+/// Estimates machines.
+pub struct Estimator {
+    fit: Fit,
+    /// machine, engine, or a unit.
+    unit: String,
+    devices: Vec<Target>,
+}
+
+impl Estimator {
+    /// Of a part of each machine, by the fit in the tree; each estimate says whether it fits these devices.
+    pub fn new(unit: &str, devices: Vec<Target>) -> Estimator {
+        Estimator { fit: Fit::known(), unit: unit.to_owned(), devices }
+    }
+
+    /// As rows have it; null for a machine that has no such unit.
+    pub fn value(&self, machine: &Plan) -> Value {
+        let Ok(part) = Part::named(&self.unit, machine) else { return Value::Null };
+        let Ok(structure) = part.structure(machine, &self.fit.delays) else { return Value::Null };
+        let estimate = self.fit.estimate(&structure);
+        let devices: Vec<_> = self.devices.iter().map(|device| fits(&estimate, device)).collect();
+        let Ok(mut value) = serde_json::to_value(estimate) else { return Value::Null };
+        value["fits"] = json!(devices);
+        value
+    }
+}

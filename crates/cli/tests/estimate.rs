@@ -1,0 +1,197 @@
+//! `edgewalk estimate`: its counts beside the measured ones, the table of errors in the page, and its error messages.
+#![allow(clippy::unwrap_used)] // a test that unwraps nothing reports it
+
+use crate::support::{edgewalk, run};
+use serde_json::Value;
+use std::path::{Path, PathBuf};
+
+fn data(name: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../synth/data").join(name)
+}
+
+/// What `estimate --json` says of these machines, in their order.
+fn estimates(words: &[&str]) -> Vec<Value> {
+    let folder = tempfile::tempdir().unwrap();
+    let output = edgewalk(folder.path(), &[&["estimate", "--json"][..], words].concat()).output().unwrap();
+    assert!(output.status.success(), "{words:?}: {}", String::from_utf8_lossy(&output.stderr));
+    let document: Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert_eq!(document["format"], "edgewalk-estimate");
+    document["machines"].as_array().unwrap().clone()
+}
+
+/// A row of measured.csv beside the estimate of the same machine today.
+struct Beside {
+    held_out: bool,
+    lut4: f64,
+    exact: [u64; 3],
+    packed: Option<f64>,
+    mhz: Option<f64>,
+    estimate: Value,
+}
+
+/// The whole machines of the table whose netlists are as they were.
+fn beside() -> (Vec<Beside>, usize) {
+    let table = std::fs::read_to_string(data("measured.csv")).unwrap();
+    let rows: Vec<Vec<&str>> = table.lines().skip(1).map(|line| line.split(',').collect()).collect();
+    let rows: Vec<Vec<&str>> = rows.into_iter().filter(|row| row[1] == "machine").collect();
+    let names: Vec<String> = rows.iter().map(|row| row[0].replace(' ', ",")).collect();
+    let found = estimates(&names.iter().map(String::as_str).collect::<Vec<_>>());
+    let all = rows.len();
+    let beside: Vec<Beside> = rows
+        .iter()
+        .zip(found)
+        .filter(|(row, estimate)| estimate["shape"] == row[2])
+        .map(|(row, estimate)| Beside {
+            held_out: row[3] == "yes",
+            lut4: row[4].parse().unwrap(),
+            exact: [5, 6, 7].map(|field: usize| row[field].parse().unwrap()),
+            packed: row[8].parse().ok(),
+            mhz: row[9].parse().ok(),
+            estimate,
+        })
+        .collect();
+    let stale = all - beside.len();
+    (beside, stale)
+}
+
+fn exact(estimate: &Value) -> [u64; 3] {
+    ["est_carry", "est_ff", "est_ram"].map(|figure| estimate[figure].as_u64().unwrap())
+}
+
+fn off(estimate: &Value, figure: &str, measured: f64) -> f64 {
+    (estimate[figure]["value"].as_f64().unwrap() / measured - 1.0).abs()
+}
+
+/// The lines of docs/estimate.md that tell how far the estimates of the measured machines are off.
+fn lines(beside: &[Beside]) -> Vec<String> {
+    let mut lines = Vec::new();
+    for (name, held_out) in [("held out", true), ("fitted to", false)] {
+        let rows: Vec<&Beside> = beside.iter().filter(|row| row.held_out == held_out).collect();
+        let equal = |at: usize| rows.iter().filter(|row| exact(&row.estimate)[at] == row.exact[at]).count();
+        let spread = |mut values: Vec<f64>| {
+            values.sort_by(f64::total_cmp);
+            match values.last() {
+                Some(most) => {
+                    format!("{:.1}, {:.1} ({})", 100.0 * values[values.len() / 2], 100.0 * most, values.len())
+                }
+                None => "none".to_owned(),
+            }
+        };
+        let lut4 = rows.iter().map(|row| off(&row.estimate, "est_lut4", row.lut4)).collect();
+        let cells =
+            rows.iter().filter_map(|row| Some(off(&row.estimate, "est_cells", row.packed?))).collect();
+        let mhz = rows.iter().filter_map(|row| Some(off(&row.estimate, "est_mhz", row.mhz?))).collect();
+        let of = rows.len();
+        lines.push(format!(
+            "| {name} | {of} | {} | {} | {} | {} | {} | {} |",
+            equal(1),
+            equal(0),
+            equal(2),
+            spread(lut4),
+            spread(cells),
+            spread(mhz)
+        ));
+    }
+    lines
+}
+
+#[test]
+fn the_page_tells_the_errors_of_measured_machines() {
+    let (beside, stale) = beside();
+    let page = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/estimate.md");
+    let page = std::fs::read_to_string(page).unwrap();
+    println!("{} machines as they were measured, {stale} changed since", beside.len());
+    assert!(beside.len() > 2 * stale, "too many netlists have changed: run `edgewalk calibrate --count N`");
+    // Rows that went stale leave the table short of what the page was made of.
+    if stale == 0 {
+        for line in lines(&beside) {
+            assert!(page.contains(&line), "docs/estimate.md has no line\n{line}");
+        }
+    }
+    let mut most = 0;
+    for row in &beside {
+        let estimate = &row.estimate;
+        assert!(off(estimate, "est_lut4", row.lut4) < 0.05, "{}: LUT4 beyond 5 %", estimate["name"]);
+        let [carry, ff, ram] = [0, 1, 2].map(|at| exact(estimate)[at].abs_diff(row.exact[at]));
+        assert_eq!([ff, ram], [0, 0], "{}: off by {ff} FF, {ram} RAM", estimate["name"]);
+        most = most.max(carry);
+    }
+    let (_, told) =
+        page.split_once("they are off by at most ").expect("the page tells how far carry cells are off");
+    let told: u64 = told[..told.find('.').unwrap()].parse().unwrap();
+    // The machine that is off the most may be one whose netlist has changed.
+    assert!(
+        if stale == 0 { most == told } else { most <= told },
+        "{most} carry cells off, the page tells {told}"
+    );
+}
+
+#[test]
+fn the_fit_follows_from_the_table() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::copy(data("measured.csv"), folder.path().join("measured.csv")).unwrap();
+    std::fs::copy(data("machines.txt"), folder.path().join("machines.txt")).unwrap();
+    let words =
+        ["calibrate", "--machines", "machines.txt", "--data", "measured.csv", "--fit", "fit.json", "--json"];
+    let output = edgewalk(folder.path(), &words).output().unwrap();
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let report: Value = serde_json::from_slice(&output.stdout).unwrap();
+    if report["stale"] == 0 {
+        let [own, kept] = [folder.path().join("fit.json"), data("ice40.json")]
+            .map(|path| std::fs::read_to_string(path).unwrap());
+        assert_eq!(own, kept, "run `edgewalk calibrate`");
+    }
+    assert!(report["rows"].as_u64() > Some(10));
+    // A table that is none is refused, and nothing is written.
+    for (table, why) in
+        [("nonsense", "line 1: found `nonsense`"), ("machine,part\n", "line 1: found `machine,part`")]
+    {
+        std::fs::write(folder.path().join("bad.csv"), table).unwrap();
+        let (code, said) = run(
+            folder.path(),
+            &["calibrate", "--machines", "machines.txt", "--data", "bad.csv", "--fit", "none.json"],
+        );
+        assert!(code == Some(2) && said.contains(why), "{said}");
+    }
+    assert!(!folder.path().join("none.json").exists());
+}
+
+#[test]
+fn the_text_tells_the_figures_of_the_json() {
+    let folder = tempfile::tempdir().unwrap();
+    let machines = ["small", "up5k", "default,setup.lanes=1", "--fits", "ice40-up5k"];
+    let output = edgewalk(folder.path(), &[&["estimate"][..], &machines].concat()).output().unwrap();
+    let text = String::from_utf8(output.stdout).unwrap();
+    let rows = estimates(&machines);
+    assert_eq!(rows.len(), 3);
+    for row in &rows {
+        let line = text.lines().find(|line| line.starts_with(row["name"].as_str().unwrap())).unwrap();
+        let fields: Vec<&str> = line.split_whitespace().collect();
+        let whole = |figure: &str| format!("{:.0}", row[figure]["value"].as_f64().unwrap());
+        assert_eq!([fields[1], fields[7]], [whole("est_lut4"), whole("est_cells")], "{line}");
+        assert_eq!([4, 5, 6].map(|at: usize| fields[at].parse::<u64>().unwrap()), exact(row), "{line}");
+        assert_eq!(fields[10], format!("{:.1}", row["est_mhz"]["value"].as_f64().unwrap()), "{line}");
+        let by_unit: f64 =
+            row["est_lut4_by_unit"].as_object().unwrap().values().map(|of| of.as_f64().unwrap()).sum();
+        assert!((by_unit - row["est_lut4"]["value"].as_f64().unwrap()).abs() <= 1.0);
+    }
+    let fits: Vec<Option<bool>> = rows.iter().map(|row| row["fits"][0]["fits"].as_bool()).collect();
+    assert_eq!(fits, [Some(true), Some(true), Some(false)], "{text}");
+    assert!(text.contains("ice40-up5k: does not fit: "), "{text}");
+}
+
+#[test]
+fn malformed_estimates_are_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    for (words, why) in [
+        (&["estimate", "smal"][..], "nearest: small"),
+        (&["estimate", "small,setup.lane=2"], "setup.lanes"),
+        (&["estimate", "--unit", "sapn"], "nearest: span"),
+        (&["estimate", "--fits", "up5k"], "nearest: ice40-up5k"),
+        (&["estimate", "--fits", "ecp5-25"], "an estimate knows devices of the iCE40 family only"),
+        (&["calibrate", "--machines", "none.txt"], "none.txt"),
+    ] {
+        let (code, said) = run(folder.path(), words);
+        assert!(code == Some(2) && said.contains(why), "{words:?}: {said}");
+    }
+}

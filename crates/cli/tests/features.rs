@@ -1,0 +1,166 @@
+//! `edgewalk compare` of several machines on several inputs: the table of what features cost.
+#![allow(clippy::unwrap_used)] // a test that unwraps nothing reports it
+
+use crate::support::{SCREEN, TRIANGLE, edgewalk, run};
+use serde_json::{Value, json};
+use std::path::Path;
+
+fn json(folder: &Path, arguments: &[&str]) -> Value {
+    let output = edgewalk(folder, &[arguments, &["--json"]].concat()).output().unwrap();
+    assert!(output.status.success(), "{arguments:?}: {}", String::from_utf8_lossy(&output.stderr));
+    serde_json::from_slice(&output.stdout).unwrap()
+}
+
+const MACHINES: [(&str, &[&str]); 4] = [
+    ("default", &[]),
+    ("default,blend.kind=constant", &["--set", "blend.kind=constant"]),
+    ("default,shade.kind=fast-phong", &["--set", "shade.kind=fast-phong", "--shading", "fast-phong"]),
+    ("default,shade.kind=phong", &["--set", "shade.kind=phong", "--shading", "phong"]),
+];
+
+#[test]
+fn table_has_figures_of_render_and_estimate() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("a.tri"), TRIANGLE).unwrap();
+    let [a, b, c, d] = MACHINES.map(|machine| machine.0);
+    let more = ["--with", c, "--with", d, "--page", "p.html"];
+    let told = json(folder.path(), &[&["compare", a, b, "sphere", "a.tri"], &more[..], &SCREEN].concat());
+    assert_eq!(
+        (&told["format"], &told["inputs"]),
+        (&json!("edgewalk-features"), &json!(["sphere", "a.tri"]))
+    );
+    let mut checked = 0;
+    for ((name, settings), machine) in MACHINES.iter().zip(told["machines"].as_array().unwrap()) {
+        assert_eq!(machine["machine"], *name);
+        for (input, row) in ["sphere", "a.tri"].into_iter().zip(machine["inputs"].as_array().unwrap()) {
+            if input == "a.tri" && name.contains("shade") {
+                assert!(row["reason"].as_str().unwrap().contains("shades by normals"), "{row}");
+                continue;
+            }
+            let report =
+                json(folder.path(), &[&["render", input, "--out", "r"], *settings, &SCREEN].concat());
+            for (key, place) in [
+                ("cycles", "/cycles/total"),
+                ("fragments", "/fragments"),
+                ("bytes", "/traffic/bytes"),
+                ("z_error", "/comparison/z_error"),
+                ("color_error", "/comparison/color_error"),
+            ] {
+                assert_eq!(
+                    row[key],
+                    report.pointer(place).cloned().unwrap_or(Value::Null),
+                    "{name} {input} {key}"
+                );
+                checked += 1;
+            }
+            assert_eq!(row["shading_error"].is_null(), input == "a.tri", "a triangle file has no surface");
+        }
+        let keys: Vec<&str> = settings.iter().copied().take(2).collect();
+        for unit in machine["units"].as_array().unwrap() {
+            let one = unit["unit"].as_str().unwrap();
+            let told = json(folder.path(), &[&["estimate", "--unit", one], &keys[..], &SCREEN].concat());
+            for figure in ["est_lut4", "est_ff", "est_ram", "est_mhz"] {
+                assert_eq!(unit["estimate"][figure], told["machines"][0][figure], "{name} {one}");
+                checked += 1;
+            }
+        }
+        let fits = ["--fits", "ice40-hx8k", "--fits", "ice40-up5k"];
+        let whole = json(folder.path(), &[&["estimate"], &fits[..], &keys, &SCREEN].concat());
+        assert_eq!(machine["estimate"]["fits"], whole["machines"][0]["fits"]);
+        assert_eq!(machine["estimate"]["est_lut4"], whole["machines"][0]["est_lut4"]);
+        checked += 2;
+    }
+    println!("{checked} figures");
+    assert_eq!(checked, 6 * 5 + (5 + 6 + 7 + 8) * 4 + 4 * 2, "units: {}", units(&told));
+    // 64 x 48 pixels of 24 bits of depth and 24 of colour; tables and records beside them.
+    assert_eq!(told["machines"][0]["memory_bits"], 64 * 48 * (24 + 24));
+    assert!(told["machines"][3]["memory_bits"].as_u64() > told["machines"][0]["memory_bits"].as_u64());
+    // The distance from the equation is the one that the comparison of two machines tells.
+    let pair = json(folder.path(), &[&["compare", a, d, "sphere"], &SCREEN[..]].concat());
+    for (machine, side) in [(0, "a"), (3, "b")] {
+        let [row, equation] = [&told["machines"][machine]["inputs"][0], &pair[side]["equation"]];
+        assert_eq!((&row["shading_mean"], &row["shading_error"]), (&equation["mean"], &equation["largest"]));
+        assert!(row["shading_mean"].as_f64() > Some(0.1), "{row}");
+    }
+    page_is_that_of_the_json(folder.path(), &told);
+    let kept = std::fs::read(folder.path().join("out/compare/features.json")).unwrap();
+    assert_eq!(serde_json::from_slice::<Value>(&kept).unwrap(), told);
+}
+
+fn units(told: &Value) -> String {
+    let machines = told["machines"].as_array().unwrap().iter();
+    machines
+        .map(|machine| machine["units"].as_array().unwrap().len().to_string())
+        .collect::<Vec<_>>()
+        .join(", ")
+}
+
+/// Every figure of the page stands in the JSON where the page says, and no number of the JSON's table is left out.
+fn page_is_that_of_the_json(folder: &Path, told: &Value) {
+    let page = std::fs::read_to_string(folder.join("p.html")).unwrap();
+    assert!(!page.contains("http") && !page.contains("<script") && !page.contains("src="));
+    let mut checked = 0;
+    for cell in page.split("data-at=\"").skip(1) {
+        let (place, rest) = cell.split_once("\">").unwrap();
+        let shown = rest.split("</td>").next().unwrap();
+        let value = told.pointer(place).unwrap_or_else(|| panic!("{place}"));
+        match value.as_f64() {
+            Some(number) => {
+                let apart = (shown.parse::<f64>().unwrap() - number).abs();
+                assert!(
+                    apart <= if number.abs() < 1000.0 { 0.005_001 } else { 0.5 },
+                    "{place}: {shown}, {number}"
+                );
+            }
+            None => assert_eq!(shown.replace("&amp;", "&"), value.as_str().unwrap()),
+        }
+        checked += 1;
+    }
+    let text = std::fs::read_to_string(folder.join("out/compare/features.txt")).unwrap();
+    let drawn =
+        told["machines"].as_array().unwrap().iter().flat_map(|machine| machine["inputs"].as_array().unwrap());
+    for row in drawn.filter(|row| row["reason"].is_null()) {
+        let cycles = row["cycles"].to_string();
+        assert!(text.contains(&cycles) && page.contains(&format!(">{cycles}</td>")), "{cycles}");
+    }
+    println!("{checked} figures of the page");
+    assert!(checked > 120);
+}
+
+#[test]
+fn shadows_cost_passes_and_maps() {
+    let folder = tempfile::tempdir().unwrap();
+    let shadows = "default,shadow.light=perspective,blend.kind=constant:shadows";
+    let compare = ["compare", "default:gouraud", shadows, "sphere", "--table"];
+    let told = json(folder.path(), &[&compare[..], &SCREEN].concat());
+    let row = &told["machines"][1]["inputs"][0];
+    let settings = ["--set", "shadow.light=perspective", "--set", "blend.kind=constant"];
+    let render = [&["render", "sphere", "--shadows", "map", "--out", "r"], &settings[..], &SCREEN].concat();
+    let report = json(folder.path(), &render);
+    assert_eq!((&row["cycles"], &row["bytes"]), (&report["cycles"]["total"], &report["traffic"]["bytes"]));
+    let maps: u64 =
+        report["cycles"]["maps"].as_array().unwrap().iter().map(|map| map.as_u64().unwrap()).sum();
+    assert_eq!(row["map_cycles"].as_u64(), Some(maps));
+    assert_eq!(row["all_cycles"].as_u64(), Some(maps + report["cycles"]["total"].as_u64().unwrap()));
+    assert!(maps > 0 && row["cycles"].as_u64() > told["machines"][0]["inputs"][0]["cycles"].as_u64());
+}
+
+#[test]
+fn tables_that_cannot_be_made_are_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("a.tri"), TRIANGLE).unwrap();
+    for (arguments, said) in [
+        (&["default", "defalt", "sphere", "--table"][..], "nearest: default"),
+        (&["default", "default", "sphere", "--with", "default,adders=1"], "nearest: interpolator.adders"),
+        (&["default", "default", "sphere", "nosuch.obj"], "nosuch.obj"),
+        (&["default", "default", "sphere", "--table", "--adapt"], "--adapt: not permitted for a table"),
+        (
+            &["default,shade.kind=phong", "default,shade.kind=phong", "a.tri", "--table"],
+            "no machine draws any of the inputs",
+        ),
+        (&["default", "default", "sphere", "--page", "none/p.html"], "--page none/p.html"),
+    ] {
+        let (code, error) = run(folder.path(), &[&["compare"], arguments, &SCREEN[..]].concat());
+        assert!(code == Some(2) && error.contains(said), "{arguments:?}: {error}");
+    }
+}
