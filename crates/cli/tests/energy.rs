@@ -6,7 +6,7 @@ use serde_json::Value;
 use std::path::Path;
 
 /// A machine that Yosys maps in a few seconds.
-const SMALL: [&str; 8] = [
+const SMALL: [&str; 24] = [
     "--set",
     "screen.width=24",
     "--set",
@@ -14,7 +14,23 @@ const SMALL: [&str; 8] = [
     "--set",
     "screen.guard_bits=5",
     "--set",
+    "screen.subpixel_bits=0",
+    "--set",
     "setup.lanes=1",
+    "--set",
+    "formats.z_bits=6",
+    "--set",
+    "formats.z_fraction=2",
+    "--set",
+    "formats.z_vertex=0",
+    "--set",
+    "formats.color_bits=3",
+    "--set",
+    "formats.color_fraction=2",
+    "--set",
+    "formats.color_vertex=0",
+    "--set",
+    "memory.latency=1",
 ];
 
 /// What the command prints for 300 triangles of the sphere, with these words more.

@@ -166,10 +166,14 @@ pub fn run(command: &mut Command, limit: Duration) -> Result<String, Stop> {
     let mut bytes = Vec::new();
     printed.rewind().and_then(|()| printed.read_to_end(&mut bytes)).map_err(broken)?;
     let text = String::from_utf8_lossy(&bytes).into_owned();
-    match status.success() {
-        true => Ok(text),
-        false => Err(Stop::Broken { tool, lines: first_lines(text.lines()) }),
+    if status.success() {
+        return Ok(text);
     }
+    let mut lines = first_lines(text.lines());
+    if lines.is_empty() {
+        lines.push(format!("it said nothing; {status}"));
+    }
+    Err(Stop::Broken { tool, lines })
 }
 
 /// Enough to see what is wrong.
@@ -193,6 +197,8 @@ mod tests {
         assert_eq!(run(&mut shell("echo out; echo err >&2"), second), Ok("out\nerr\n".to_owned()));
         let broken = Stop::Broken { tool: "sh".to_owned(), lines: vec!["no".to_owned()] };
         assert_eq!(run(&mut shell("echo no; exit 3"), second), Err(broken));
+        let crash = run(&mut shell("kill -SEGV $$"), second).expect_err("a signal").to_string();
+        assert!(crash.starts_with("sh failed:\nit said nothing; signal: 11"), "{crash}");
         let late = run(&mut shell("sleep 60 & wait"), Duration::from_millis(50));
         assert_eq!(late, Err(Stop::TimeLimit { tool: "sh".to_owned(), limit: Duration::from_millis(50) }));
     }
