@@ -6,13 +6,13 @@ use super::judge::{Judge, Memory};
 use super::objective::Objective;
 use super::point::{Identity, Point};
 use super::require::Requirement;
-use super::search::Round;
 use super::shading;
 use super::subject::{Subject, Way};
 use anyhow::{Result, anyhow};
 use edgewalk_machine::Machine;
 use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64Mcg;
+use serde::Serialize;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Most points of a sweep.
@@ -20,6 +20,15 @@ pub const MAX_POINTS: u64 = 200_000;
 
 /// Most seeds of place and route.
 pub const MAX_SEEDS: u32 = 1000;
+
+/// What a round of a search runs.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+pub struct Round {
+    /// How many inputs the machines are run on, the first of all.
+    pub inputs: usize,
+    /// How many machines.
+    pub machines: usize,
+}
 
 /// A sweep that can be run.
 pub struct Sweep {

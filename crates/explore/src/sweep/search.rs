@@ -7,22 +7,12 @@
 
 use super::definition::Sample;
 use super::front::fronts;
-use super::grid::Sweep;
+use super::grid::{Round, Sweep};
 use super::row::Status;
 use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64Mcg;
-use serde::Serialize;
 use serde_json::Value;
 use std::collections::{BTreeMap, BTreeSet};
-
-/// What a round of a search runs.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
-pub struct Round {
-    /// How many inputs the machines are run on, the first of all.
-    pub inputs: usize,
-    /// How many machines.
-    pub machines: usize,
-}
 
 /// Of the machines of a search the first half is drawn at random; a further round takes one in sixteen.
 const STEP: usize = 16;

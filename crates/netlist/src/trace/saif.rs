@@ -2,20 +2,27 @@
 
 use std::io::{self, Write};
 
-use super::transitions::Net;
+use super::transitions::{Net, Transitions};
 use super::watch::{CYCLE, Scope};
 
-/// The whole file. The clock stands in the top instance, as in the waveforms.
-pub(super) fn write_saif(out: &mut impl Write, top: &Scope, nets: &[Net], cycles: u64) -> io::Result<()> {
-    writeln!(out, "(SAIFILE\n(SAIFVERSION \"2.0\")\n(DIRECTION \"backward\")\n(DESIGN)")?;
-    writeln!(out, "(VENDOR \"edgewalk\")\n(PROGRAM_NAME \"edgewalk\")")?;
-    writeln!(out, "(VERSION \"{}\")", env!("CARGO_PKG_VERSION"))?;
-    writeln!(out, "(DIVIDER .)\n(TIMESCALE 1 ns)\n(DURATION {})", cycles * CYCLE)?;
-    let half = cycles * CYCLE / 2;
-    let clk = entry("clk", half, half, (2 * cycles).saturating_sub(1));
-    write_scope(out, top, nets, cycles, 0, Some(&clk))?;
-    writeln!(out, ")")?;
-    out.flush()
+impl Transitions {
+    /// Writes a SAIF file: an entry for each bit with the nanoseconds at 0 and at 1 and the transitions. The clock stands
+    /// in the top instance, as in the waveforms.
+    ///
+    /// # Errors
+    /// Those of the output.
+    pub fn write_saif(&self, out: &mut impl Write) -> io::Result<()> {
+        let cycles = self.cycles();
+        writeln!(out, "(SAIFILE\n(SAIFVERSION \"2.0\")\n(DIRECTION \"backward\")\n(DESIGN)")?;
+        writeln!(out, "(VENDOR \"edgewalk\")\n(PROGRAM_NAME \"edgewalk\")")?;
+        writeln!(out, "(VERSION \"{}\")", env!("CARGO_PKG_VERSION"))?;
+        writeln!(out, "(DIVIDER .)\n(TIMESCALE 1 ns)\n(DURATION {})", cycles * CYCLE)?;
+        let half = cycles * CYCLE / 2;
+        let clk = entry("clk", half, half, (2 * cycles).saturating_sub(1));
+        write_scope(out, &self.scope, &self.nets, cycles, 0, Some(&clk))?;
+        writeln!(out, ")")?;
+        out.flush()
+    }
 }
 
 /// An instance with its nets and the instances in it; `first` is an entry before those of its signals.

@@ -1,9 +1,7 @@
 //! How often and how long each bit of each signal was 1.
 
 use std::collections::BTreeMap;
-use std::io::{self, Write};
 
-use super::saif::write_saif;
 use super::watch::{Scope, Watch, everything};
 use crate::simulate::Simulator;
 
@@ -11,9 +9,9 @@ use crate::simulate::Simulator;
 ///
 /// Signals are seen once a cycle, so glitches within a cycle are not counted.
 pub struct Transitions {
-    scope: Scope,
+    pub(super) scope: Scope,
     watch: Watch,
-    nets: Vec<Net>,
+    pub(super) nets: Vec<Net>,
     /// The instance of the top module that computes each signal, by place; empty for the top module.
     units: Vec<String>,
     /// By path, the words of each memory.
@@ -133,14 +131,6 @@ impl Transitions {
         for inner in &scope.scopes {
             self.bits_of(inner, &format!("{prefix}{}.", inner.name), bits);
         }
-    }
-
-    /// Writes a SAIF file: an entry for each bit with the nanoseconds at 0 and at 1 and the transitions.
-    ///
-    /// # Errors
-    /// Those of the output.
-    pub fn write_saif(&self, out: &mut impl Write) -> io::Result<()> {
-        write_saif(out, &self.scope, &self.nets, self.cycles())
     }
 }
 
