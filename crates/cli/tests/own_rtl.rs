@@ -1,5 +1,7 @@
 //! A design of another hand in place of ours, through the program: `docs/own_rtl/*.toml` and what may be wrong with them.
 
+mod faults;
+mod memory_inside;
 mod refused;
 mod rules;
 
@@ -12,6 +14,10 @@ const PIXEL: &str = include_str!("../../../docs/own_rtl/pixel.toml");
 const DEPTH: &str = include_str!("../../../docs/own_rtl/depth.toml");
 const MY_PIXEL: &str = include_str!("../../../docs/own_rtl/my_pixel.v");
 const MY_DEPTH: &str = include_str!("../../../docs/own_rtl/my_depth.v");
+
+/// Cases of the suites that a test asks for by name.
+const LONG: &str = "guard_band_to_guard_band_on_a_line";
+const FUNCTIONS: &str = "nearer_equal_and_farther_than_the_cleared_depth";
 
 /// A folder with both designs and their descriptions.
 fn folder() -> tempfile::TempDir {
@@ -75,115 +81,6 @@ fn a_design_of_another_hand_passes_in_verilator() {
     );
 }
 
-/// A fault of one of the designs.
-struct Fault {
-    file: &'static str,
-    from: &'static str,
-    to: &'static str,
-    /// A case that shows it.
-    case: &'static str,
-    /// What the report says of it.
-    said: &'static str,
-}
-
-const fn fault(
-    file: &'static str,
-    from: &'static str,
-    to: &'static str,
-    case: &'static str,
-    said: &'static str,
-) -> Fault {
-    Fault { file, from, to, case, said }
-}
-
-const LONG: &str = "guard_band_to_guard_band_on_a_line";
-const FUNCTIONS: &str = "nearer_equal_and_farther_than_the_cleared_depth";
-
-const FAULTS: [Fault; 13] = [
-    fault("my_pixel.v", "column < 640", "column < 639", LONG, "case guard_band_to_guard_band_on_a_line"),
-    fault("my_pixel.v", "left ? column - 1", "left ? column + 1", "flat_top", "frag_addr: expected "),
-    fault("my_pixel.v", "dr <= step_r", "dr <= step_g", "flat_top", "frag_r: expected "),
-    fault(
-        "my_pixel.v",
-        "fence <= 1'b0;",
-        "fence <= fence;",
-        "flat_top",
-        "frag_fence: expected 0 (0), found 1 (1)",
-    ),
-    fault("my_pixel.v", "z[ZW-1-:24]", "z[ZW-2-:24]", "flat_top", "frag_z: expected "),
-    fault(
-        "my_pixel.v",
-        "stage_valid <= 1'b1;",
-        "stage_valid <= pixels != 1;",
-        "flat_top",
-        "frag_addr: expected 00407 (1031), found 00801 (2049)",
-    ),
-    fault("my_pixel.v", "if (!m_valid || m_ready) begin", "begin", "flat_top", "frag: cycle "),
-    fault("my_depth.v", "less ? func[0]", "less ? func[1]", "flat_top", "wr: "),
-    fault(
-        "my_depth.v",
-        "addr[(first + i) & 15] == f_addr",
-        "1'b0",
-        "one_pixel_again_nearer_and_farther",
-        "wr: ",
-    ),
-    fault(
-        "my_depth.v",
-        "w_z_en <= z_write",
-        "w_z_en <= 1'b1",
-        FUNCTIONS,
-        "wr_z_en: expected 0 (0), found 1 (1)",
-    ),
-    fault(
-        "my_depth.v",
-        "{8'b0, new_z}",
-        "{8'b1, new_z}",
-        "flat_top",
-        "a wider port holds more than its value extended",
-    ),
-    fault("my_depth.v", "rgb[free] <= f_rgb", "rgb[free] <= f_rgb | 1", "flat_top", "wr_b: expected "),
-    fault(
-        "my_depth.v",
-        "w_addr <= addr[first]",
-        "w_addr <= addr[first] ^ 1",
-        "flat_top",
-        "wr_addr: expected ",
-    ),
-];
-
-/// Each fault under this simulator: exit code 1, and in Icarus the words for it.
-fn faults_fail(simulator: &str, faults: impl Iterator<Item = &'static Fault>) {
-    for Fault { file, from, to, case, said } in faults {
-        let folder = folder();
-        edit(folder.path(), file, from, to);
-        let dut = file.replace("my_", "").replace(".v", ".toml");
-        let arguments = ["verify", "--dut", &dut, "--simulator", simulator, "--only", case];
-        let (code, text) = told(&edgewalk(folder.path(), &arguments));
-        assert_eq!(code, Some(1), "{to}: {text}");
-        assert!(text.contains("FAIL  "), "{to}: {text}");
-        assert!(simulator != "icarus" || text.contains(said), "{to} without `{said}`: {text}");
-    }
-}
-
-#[test]
-fn faults_of_both_designs_fail_in_icarus() {
-    faults_fail("icarus", FAULTS.iter());
-}
-
-/// A design that never gives a token is wrong, and its description fits.
-#[test]
-fn a_silent_design_fails_with_code_1() {
-    let folder = folder();
-    edit(folder.path(), "my_pixel.v", "stage_valid <= 1'b1;", "stage_valid <= 1'b0;");
-    let arguments =
-        ["verify", "--dut", "pixel.toml", "--simulator", "icarus", "--only", "flat_top", "--junit", "r.xml"];
-    let (code, text) = told(&edgewalk(folder.path(), &arguments));
-    assert_eq!(code, Some(1), "{text}");
-    assert!(text.contains("no token came: expected "), "{text}");
-    let xml = fs::read_to_string(folder.path().join("r.xml")).expect("written");
-    assert!(xml.contains("tests=\"1\" failures=\"1\"") && xml.contains(">no token came: expected "), "{xml}");
-}
-
 /// Lists of the report behind these words, without counts and reasons.
 fn listed<'a>(text: &'a str, head: &str) -> Vec<&'a str> {
     let line = text.lines().find_map(|line| line.strip_prefix(head)).unwrap_or_default();
@@ -214,94 +111,6 @@ fn events_of_the_designs_own_run_are_told() {
     edit(folder.path(), "my_pixel.v", "m_data  <= stage;", "m_data  <= stage[66:0];");
     let (code, text) = told(&edgewalk(folder.path(), &arguments));
     assert!(code == Some(0) && text.contains("not to be seen: fence (no port for frag_fence)"), "{text}");
-}
-
-/// Changes of `my_depth.v` that put the depth memory inside it.
-const INSIDE: [(&str, &str); 3] = [
-    (
-        "  output wire        rd_valid,
-  input  wire        rd_ready,
-  output wire [18:0] rd_addr,
-  input  wire        data_valid,
-  output wire        data_ready,
-  input  wire [23:0] data_z,
-",
-        "",
-    ),
-    (
-        "  reg [18:0] addr [0:15];",
-        "  reg [23:0] stored [0:524287];
-  wire rd_valid, data_ready;
-  wire rd_ready = 1'b1;
-  wire [18:0] rd_addr;
-  reg [18:0] addr [0:15];",
-    ),
-    (
-        "  wire may = count",
-        "  wire data_valid = count != 0;
-  wire [23:0] data_z = stored[addr[first]];
-  always @(posedge clk) if (w_valid && w_ready && w_z_en) stored[w_addr] <= w_z[23:0];
-  wire may = count",
-    ),
-];
-
-/// A DEPTH with its memory inside passes, also where the memory is cleared to another depth; one that stores nothing fails.
-#[test]
-fn memories_inside_the_design_are_filled() {
-    let folder = folder();
-    INSIDE.iter().for_each(|(from, to)| edit(folder.path(), "my_depth.v", from, to));
-    edit(folder.path(), "depth.toml", "[in.frag]", "[memories]\ndepth = \"stored\"\n\n[in.frag]");
-    let verify = || {
-        let cases = ["--only", "one_pixel_again_nearer_and_farther", "--only", FUNCTIONS];
-        let arguments = [&["verify", "--dut", "depth.toml", "--simulator", "icarus"][..], &cases].concat();
-        told(&edgewalk(folder.path(), &arguments))
-    };
-    let (code, text) = verify();
-    assert_eq!(code, Some(0), "{text}");
-    assert!(text.contains("pass  depth_greater ") && text.contains("not compared: rd_addr, "), "{text}");
-    assert!(text.contains("memory_stall (no port for rd_ready)"), "{text}");
-    assert!(text.contains("warning: depth_never: left out, as nothing is to be compared: "), "{text}");
-    for (from, to, said) in [
-        (
-            "depth = \"stored\"",
-            "depht = \"stored\"",
-            "memories.depht: depth has no memory depht; permitted: depth; nearest: depth",
-        ),
-        (
-            "depth = \"stored\"",
-            "depth = \"1stored\"",
-            "memories.depth: \"1stored\"; permitted: names of Verilog with points between",
-        ),
-        (
-            "[out.wr]\n",
-            "[out.rd]\nprefix = \"rd_\"\n\n[out.wr]\n",
-            "out.rd: a channel of the memory depth, which is inside; permitted: channels of other memories",
-        ),
-    ] {
-        let right = fs::read_to_string(folder.path().join("depth.toml")).expect("a file");
-        edit(folder.path(), "depth.toml", from, to);
-        let (code, text) = verify();
-        assert!(code == Some(2) && text.contains(said), "{to}: {text}");
-        fs::write(folder.path().join("depth.toml"), right).expect("written");
-    }
-    let arguments = ["mutants", "--dut", "depth.toml", "--bench", "true", "--sample", "1"];
-    let (code, text) = told(&edgewalk(folder.path(), &arguments));
-    assert!(code == Some(2) && text.contains("memories: depth is inside the design"), "{text}");
-    edit(folder.path(), "my_depth.v", "stored[w_addr] <= w_z[23:0]", "stored[w_addr] <= 0");
-    let (code, text) = verify();
-    assert!(code == Some(1) && text.contains("wr: "), "{text}");
-}
-
-/// Verilator fills it too; not part of the test run, as it is a build.
-#[test]
-#[ignore = "a build with Verilator"]
-fn a_memory_inside_the_design_passes_in_verilator() {
-    let folder = folder();
-    INSIDE.iter().for_each(|(from, to)| edit(folder.path(), "my_depth.v", from, to));
-    edit(folder.path(), "depth.toml", "[in.frag]", "[memories]\ndepth = \"stored\"\n\n[in.frag]");
-    let (code, text) =
-        told(&edgewalk(folder.path(), &["verify", "--dut", "depth.toml", "--simulator", "verilator"]));
-    assert_eq!(code, Some(0), "{text}");
 }
 
 /// What the bench counts at the ports of our own DEPTH is what the model counts.
@@ -336,18 +145,6 @@ fn events_at_the_ports_are_those_of_the_model() {
     }
     println!("checked {counted} events");
     assert!(counted >= 9, "{counted}");
-}
-
-/// Not part of the test run: a dozen builds. `cargo test --release -p edgewalk-cli own_rtl:: -- --ignored`
-#[test]
-#[ignore = "three minutes"]
-fn faults_of_both_designs_fail_in_verilator() {
-    let folder = folder();
-    let arguments = ["verify", "--dut", "depth.toml", "--simulator", "verilator"];
-    let (code, text) = told(&edgewalk(folder.path(), &arguments));
-    assert_eq!(code, Some(0), "{text}");
-    // Verilator runs the directed suites alone, and these are drawn with depth writes.
-    faults_fail("verilator", FAULTS.iter().filter(|fault| fault.case != FUNCTIONS));
 }
 
 fn made(folder: &Path, directory: &str, targets: &[&str]) -> (bool, String) {

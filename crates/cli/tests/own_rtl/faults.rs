@@ -1,0 +1,122 @@
+//! Faults of both designs: each fails, with the words for it.
+
+use super::{FUNCTIONS, LONG, edgewalk, edit, folder, told};
+use std::fs;
+
+/// A fault of one of the designs.
+struct Fault {
+    file: &'static str,
+    from: &'static str,
+    to: &'static str,
+    /// A case that shows it.
+    case: &'static str,
+    /// What the report says of it.
+    said: &'static str,
+}
+
+const fn fault(
+    file: &'static str,
+    from: &'static str,
+    to: &'static str,
+    case: &'static str,
+    said: &'static str,
+) -> Fault {
+    Fault { file, from, to, case, said }
+}
+
+const FAULTS: [Fault; 13] = [
+    fault("my_pixel.v", "column < 640", "column < 639", LONG, "case guard_band_to_guard_band_on_a_line"),
+    fault("my_pixel.v", "left ? column - 1", "left ? column + 1", "flat_top", "frag_addr: expected "),
+    fault("my_pixel.v", "dr <= step_r", "dr <= step_g", "flat_top", "frag_r: expected "),
+    fault(
+        "my_pixel.v",
+        "fence <= 1'b0;",
+        "fence <= fence;",
+        "flat_top",
+        "frag_fence: expected 0 (0), found 1 (1)",
+    ),
+    fault("my_pixel.v", "z[ZW-1-:24]", "z[ZW-2-:24]", "flat_top", "frag_z: expected "),
+    fault(
+        "my_pixel.v",
+        "stage_valid <= 1'b1;",
+        "stage_valid <= pixels != 1;",
+        "flat_top",
+        "frag_addr: expected 00407 (1031), found 00801 (2049)",
+    ),
+    fault("my_pixel.v", "if (!m_valid || m_ready) begin", "begin", "flat_top", "frag: cycle "),
+    fault("my_depth.v", "less ? func[0]", "less ? func[1]", "flat_top", "wr: "),
+    fault(
+        "my_depth.v",
+        "addr[(first + i) & 15] == f_addr",
+        "1'b0",
+        "one_pixel_again_nearer_and_farther",
+        "wr: ",
+    ),
+    fault(
+        "my_depth.v",
+        "w_z_en <= z_write",
+        "w_z_en <= 1'b1",
+        FUNCTIONS,
+        "wr_z_en: expected 0 (0), found 1 (1)",
+    ),
+    fault(
+        "my_depth.v",
+        "{8'b0, new_z}",
+        "{8'b1, new_z}",
+        "flat_top",
+        "a wider port holds more than its value extended",
+    ),
+    fault("my_depth.v", "rgb[free] <= f_rgb", "rgb[free] <= f_rgb | 1", "flat_top", "wr_b: expected "),
+    fault(
+        "my_depth.v",
+        "w_addr <= addr[first]",
+        "w_addr <= addr[first] ^ 1",
+        "flat_top",
+        "wr_addr: expected ",
+    ),
+];
+
+/// Each fault under this simulator: exit code 1, and in Icarus the words for it.
+fn faults_fail(simulator: &str, faults: impl Iterator<Item = &'static Fault>) {
+    for Fault { file, from, to, case, said } in faults {
+        let folder = folder();
+        edit(folder.path(), file, from, to);
+        let dut = file.replace("my_", "").replace(".v", ".toml");
+        let arguments = ["verify", "--dut", &dut, "--simulator", simulator, "--only", case];
+        let (code, text) = told(&edgewalk(folder.path(), &arguments));
+        assert_eq!(code, Some(1), "{to}: {text}");
+        assert!(text.contains("FAIL  "), "{to}: {text}");
+        assert!(simulator != "icarus" || text.contains(said), "{to} without `{said}`: {text}");
+    }
+}
+
+#[test]
+fn faults_of_both_designs_fail_in_icarus() {
+    faults_fail("icarus", FAULTS.iter());
+}
+
+/// A design that never gives a token is wrong, and its description fits.
+#[test]
+fn a_silent_design_fails_with_code_1() {
+    let folder = folder();
+    edit(folder.path(), "my_pixel.v", "stage_valid <= 1'b1;", "stage_valid <= 1'b0;");
+    let arguments =
+        ["verify", "--dut", "pixel.toml", "--simulator", "icarus", "--only", "flat_top", "--junit", "r.xml"];
+    let (code, text) = told(&edgewalk(folder.path(), &arguments));
+    assert_eq!(code, Some(1), "{text}");
+    assert!(text.contains("no token came: expected "), "{text}");
+    let xml = fs::read_to_string(folder.path().join("r.xml")).expect("written");
+    assert!(xml.contains("tests=\"1\" failures=\"1\"") && xml.contains(">no token came: expected "), "{xml}");
+}
+
+/// Not part of the test run: a dozen builds. `cargo test --release -p edgewalk-cli own_rtl:: -- --ignored`
+#[test]
+#[ignore = "three minutes"]
+fn faults_of_both_designs_fail_in_verilator() {
+    let folder = folder();
+    let arguments = ["verify", "--dut", "depth.toml", "--simulator", "verilator"];
+    let (code, text) = told(&edgewalk(folder.path(), &arguments));
+    assert_eq!(code, Some(0), "{text}");
+    // Verilator runs the directed suites alone, and these are drawn with depth writes.
+    faults_fail("verilator", FAULTS.iter().filter(|fault| fault.case != FUNCTIONS));
+}
