@@ -7,22 +7,22 @@ use crate::ports::Held;
 use crate::tokens::{FEW, Line, Prim, Words};
 use edgewalk_machine::Plan;
 
-/// What walks the edges that SETUP gives. A machine of few channels has no POLY: nothing of it is built for those.
+/// What walks the edges that SETUP gives: EDGE, or POLY where the machine has it. A machine of few channels has no POLY:
+/// nothing of it is built for those.
 #[derive(Clone, Debug)]
-pub enum Walker<const C: usize> {
-    /// Of triangles.
-    Edge(Edge<C>),
-    /// Of polygons.
-    Poly(Box<Poly<C>>),
+pub struct Walker<const C: usize> {
+    edge: Edge<C>,
+    poly: Option<Box<Poly<C>>>,
 }
 
-/// The same of both units.
+/// The same of the unit that the machine has.
 macro_rules! either {
     ($walker:expr, $unit:ident => $body:expr) => {
-        match $walker {
-            Walker::Poly($unit) if C > FEW => $body,
-            Walker::Edge($unit) => $body,
-            Walker::Poly(_) => unreachable!("for_channels! takes more channels for POLY"),
+        if let Some($unit) = $walker.poly() {
+            $body
+        } else {
+            let $unit = &$walker.edge;
+            $body
         }
     };
 }
@@ -31,35 +31,45 @@ impl<const C: usize> Walker<C> {
     /// The unit of this machine, at rest.
     #[must_use]
     pub fn new(plan: &Plan) -> Self {
-        if plan.polygon.is_there() {
-            Walker::Poly(Box::new(Poly::new(plan)))
-        } else {
-            Walker::Edge(Edge::new(plan))
-        }
+        let poly = plan.polygon.is_there().then(|| Box::new(Poly::new(plan)));
+        assert!(C > FEW || poly.is_none(), "for_channels! takes more channels for POLY");
+        Walker { edge: Edge::new(plan), poly }
+    }
+
+    /// POLY, if the machine has it.
+    #[inline(always)]
+    #[must_use]
+    pub fn poly(&self) -> Option<&Poly<C>> {
+        if C > FEW { self.poly.as_deref() } else { None }
+    }
+
+    /// EDGE, at rest where the machine has POLY.
+    pub(crate) fn edge(&self) -> &Edge<C> {
+        &self.edge
     }
 
     /// Synchronous reset.
     pub fn reset(&mut self) {
-        either!(self, unit => unit.reset());
+        self.edge.reset();
+        if let Some(poly) = &mut self.poly {
+            poly.reset();
+        }
     }
 
     /// A triangle or polygon is being walked.
     #[inline(always)]
     #[must_use]
     pub fn running(&self) -> bool {
-        match self {
-            Walker::Edge(edge) => edge.running(),
-            Walker::Poly(poly) => C > FEW && poly.walking(),
-        }
+        self.poly().map_or_else(|| self.edge.running(), Poly::walking)
     }
 
     /// The prim offered can be taken.
     #[inline(always)]
     #[must_use]
     pub fn prim_ready(&self, prim: Option<&Prim<C>>, fresh_queued: bool) -> bool {
-        match self {
-            Walker::Edge(edge) => edge.prim_ready(fresh_queued),
-            Walker::Poly(poly) => C > FEW && prim.is_some_and(|prim| poly.prim_ready(prim, fresh_queued)),
+        match self.poly() {
+            None => self.edge.prim_ready(fresh_queued),
+            Some(poly) => prim.is_some_and(|prim| poly.prim_ready(prim, fresh_queued)),
         }
     }
 
@@ -107,22 +117,19 @@ impl<const C: usize> Walker<C> {
         light_pass: bool,
         events: &mut Events,
     ) {
-        match self {
-            Walker::Edge(edge) => edge.step(prim, fresh_queued, line_taken, events),
-            Walker::Poly(poly) if C > FEW => poly.step(prim, fresh_queued, line_taken, light_pass, events),
-            Walker::Poly(_) => {}
+        match &mut self.poly {
+            Some(poly) if C > FEW => poly.step(prim, fresh_queued, line_taken, light_pass, events),
+            _ => self.edge.step(prim, fresh_queued, line_taken, events),
         }
     }
 
     /// Clock edge while SPAN takes nothing; false if there is more to do than to wait with a line.
     #[inline(always)]
     pub(crate) fn waits(&self, events: &mut Events) -> bool {
-        match self {
-            Walker::Edge(edge) if edge.running() => {
-                edge.wait(events);
-                true
-            }
-            _ => false,
+        let waits = self.edge.running();
+        if waits {
+            self.edge.wait(events);
         }
+        waits
     }
 }

@@ -3,7 +3,6 @@
 use super::Model;
 use crate::io::Inputs;
 use crate::ports::{Pins, Ported, Shown};
-use crate::walker::Walker;
 use crate::word_memory::WordIn;
 
 /// Where the units of a machine show their outputs.
@@ -30,9 +29,9 @@ impl<const C: usize> Model<C> {
         let prim_ready = self.walker.prim_ready(prim, fresh_queued);
         self.setup.show(&Pins { next: prim_ready, state, ..Pins::default() }, &mut out.unit("setup"));
         let pins = Pins { token: prim, fresh_queued, state, ..Pins::default() };
-        match &self.walker {
-            Walker::Edge(edge) => edge.show(&pins, &mut out.unit("edge")),
-            Walker::Poly(poly) => poly.show(&pins, &mut out.unit("poly")),
+        match self.walker.poly() {
+            None => self.walker.edge().show(&pins, &mut out.unit("edge")),
+            Some(poly) => poly.show(&pins, &mut out.unit("poly")),
         }
         self.span.show(&Pins { next: wires.span_ready(), state, ..Pins::default() }, &mut out.unit("span"));
         if let Some(term) = self.term() {

@@ -3,7 +3,6 @@
 use super::Model;
 use crate::io::Inputs;
 use crate::view::View;
-use crate::walker::Walker;
 use edgewalk_machine::Plan;
 
 impl<const C: usize> Model<C> {
@@ -18,9 +17,9 @@ impl<const C: usize> Model<C> {
         let (prim, line) = (setup.prim(), walker.line());
         let line_taken = line.is_some() && span.line_ready();
         setup.view(inputs.tri, walker.prim_ready(prim, fresh_queued), view);
-        match walker {
-            Walker::Edge(edge) => edge.view(plan, prim, fresh_queued, line_taken, view),
-            Walker::Poly(poly) => poly.view(plan, prim, fresh_queued, line_taken, view),
+        match walker.poly() {
+            None => walker.edge().view(plan, prim, fresh_queued, line_taken, view),
+            Some(poly) => poly.view(plan, prim, fresh_queued, line_taken, view),
         }
         span.view(plan, line, wires.span_ready(), view);
         if let Some(term) = self.term() {

@@ -63,7 +63,7 @@ pub struct Setup<const C: usize> {
     clocks: SetupClocks,
     prim: Prim<C>,
     sequenced: bool,
-    /// Of a sequenced unit: a prim is offered, and which.
+    /// A prim is offered, and which. A sequenced unit works on while it is.
     there: bool,
     given: Prim<C>,
     /// Apart from the rest, as only a recording looks at it: inside, it made every cycle slower.
@@ -124,17 +124,14 @@ impl<const C: usize> Setup<C> {
     #[inline]
     #[must_use]
     pub fn takes(&self, offered: bool) -> bool {
-        offered && self.tri_ready() && self.come + 1 == self.words
+        self.tri_ready() && offered && self.come + 1 == self.words
     }
 
     /// The triangle offered to EDGE.
     #[inline]
     #[must_use]
     pub fn prim(&self) -> Option<&Prim<C>> {
-        if self.sequenced {
-            return self.there.then_some(&self.given);
-        }
-        (self.state == State::Done).then_some(&self.prim)
+        self.there.then_some(&self.given)
     }
 
     /// Not hardware: the clocks of the triangle taken last.
@@ -154,15 +151,15 @@ impl<const C: usize> Setup<C> {
         events: &mut Events,
     ) {
         let waits = self.there;
-        self.there &= !prim_ready;
+        if waits && prim_ready {
+            self.there = false;
+        }
         if self.remaining > 0 {
             self.remaining -= 1;
             return;
         }
-        if self.state == State::Done && !prim_ready && !self.sequenced {
-            return;
-        }
         match self.state {
+            State::Done if self.there && !self.sequenced => {}
             State::Idle => {
                 if let Some((vertices, tag)) = tri {
                     self.come += 1;
@@ -177,14 +174,9 @@ impl<const C: usize> Setup<C> {
             State::Phase1 if self.culled => self.state = State::Idle,
             State::Phase1 if waits => {} // sequenced: its last word is repeated
             // Of edges without a plane there are no channels.
-            State::Phase1 if self.clocks.phase2 == 0 => self.state = State::Done,
+            State::Phase1 if self.clocks.phase2 == 0 => self.give(),
             State::Phase1 => self.enter(State::Phase2, self.clocks.phase2),
-            State::Phase2 => {
-                self.state = State::Done;
-                if self.sequenced {
-                    (self.there, self.given) = (true, self.prim);
-                }
-            }
+            State::Phase2 => self.give(),
             State::Done => self.state = State::Idle,
         }
     }
@@ -198,6 +190,12 @@ impl<const C: usize> Setup<C> {
             offered = offered.filter(|_| !takes);
         }
         self.prim().copied()
+    }
+
+    /// All of the triangle is known.
+    fn give(&mut self) {
+        self.state = State::Done;
+        (self.there, self.given) = (true, self.prim);
     }
 
     fn enter(&mut self, state: State, cycles: u32) {
