@@ -1,5 +1,6 @@
 //! Synthesis of one machine after another, for sweeps and comparisons.
 
+use crate::cell_energy::CellEnergy;
 use crate::scratch::Scratch;
 use anyhow::{Context, Result, anyhow};
 use edgewalk_explore::sweep::definition::Synthesis;
@@ -38,6 +39,13 @@ pub struct ToolArgs {
     /// Folder of the cache; that of `edgewalk synth` if left out
     #[arg(long, value_name = "DIR")]
     cache: Option<PathBuf>,
+}
+
+impl ToolArgs {
+    /// Energy in standard cells with the same cache and time limit.
+    pub fn cell_energy(&self) -> Result<CellEnergy> {
+        CellEnergy::new(self.cache.as_deref(), self.limit)
+    }
 }
 
 impl SynthArgs {
