@@ -1,6 +1,5 @@
 //! Synthesis of one machine after another, for sweeps and comparisons.
 
-use crate::cell_energy::CellEnergy;
 use crate::scratch::Scratch;
 use anyhow::{Context, Result, anyhow};
 use edgewalk_explore::sweep::definition::Synthesis;
@@ -42,9 +41,14 @@ pub struct ToolArgs {
 }
 
 impl ToolArgs {
-    /// Energy in standard cells with the same cache and time limit.
-    pub fn cell_energy(&self) -> Result<CellEnergy> {
-        CellEnergy::new(self.cache.as_deref(), self.limit)
+    /// Folder of the cache, where it is not the usual one.
+    pub fn cache(&self) -> Option<&Path> {
+        self.cache.as_deref()
+    }
+
+    /// Seconds of each run of a tool.
+    pub fn limit(&self) -> u64 {
+        self.limit
     }
 }
 

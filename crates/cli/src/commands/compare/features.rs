@@ -143,7 +143,8 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
         }
         None => None,
     };
-    let cells = args.energy.map(|_| args.synth.tools().cell_energy()).transpose()?;
+    let tools = args.synth.tools();
+    let cells = args.energy.map(|_| CellEnergy::new(tools.cache(), tools.limit())).transpose()?;
     let out = Staging::new(&args.out)?;
     let (mut machines, mut verdict, mut drawn) = (Vec::new(), Verdict::Pass, 0);
     for column in &columns {
