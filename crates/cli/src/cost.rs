@@ -40,6 +40,18 @@ pub struct ToolArgs {
     cache: Option<PathBuf>,
 }
 
+impl ToolArgs {
+    /// Folder of the cache, where it is not the usual one.
+    pub fn cache(&self) -> Option<&Path> {
+        self.cache.as_deref()
+    }
+
+    /// Seconds of each run of a tool.
+    pub fn limit(&self) -> u64 {
+        self.limit
+    }
+}
+
 impl SynthArgs {
     /// What is asked for, once it is known that there is such a device and unit.
     pub fn definition(&self, machine: &Plan) -> Result<Option<Synthesis>> {

@@ -2,7 +2,7 @@
 
 use edgewalk_machine::Plan;
 use edgewalk_synth::estimate::{Fit, fits};
-use edgewalk_synth::{Part, Target};
+use edgewalk_synth::{Part, Target, memories};
 use serde_json::{Value, json};
 
 /// Estimates machines.
@@ -24,7 +24,8 @@ impl Estimator {
         let Ok(part) = Part::named(&self.unit, machine) else { return Value::Null };
         let Ok(structure) = part.structure(machine, &self.fit.delays) else { return Value::Null };
         let estimate = self.fit.estimate(&structure);
-        let devices: Vec<_> = self.devices.iter().map(|device| fits(&estimate, device)).collect();
+        let fits = |device| fits(&estimate, memories(machine, part), device);
+        let devices: Vec<_> = self.devices.iter().map(fits).collect();
         let Ok(mut value) = serde_json::to_value(estimate) else { return Value::Null };
         value["fits"] = json!(devices);
         value

@@ -11,6 +11,7 @@
 #![deny(clippy::print_stdout, clippy::print_stderr)] // they panic where they cannot write; see talk.rs
 
 mod arrays;
+mod cell_energy;
 mod commands;
 mod cost;
 mod design;

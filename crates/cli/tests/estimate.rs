@@ -178,6 +178,15 @@ fn the_text_tells_the_figures_of_the_json() {
     let fits: Vec<Option<bool>> = rows.iter().map(|row| row["fits"][0]["fits"].as_bool()).collect();
     assert_eq!(fits, [Some(true), Some(true), Some(false)], "{text}");
     assert!(text.contains("ice40-up5k: does not fit: "), "{text}");
+    // The preset's frame memories take all single-port blocks of its device: 160 x 256 words of 16 and 15 bits.
+    let held = |row: &Value| {
+        let memories = row["fits"][0]["memories"].as_array().unwrap().iter();
+        memories.map(|of| (of["words"].clone(), of["held_by"].clone())).collect::<Vec<_>>()
+    };
+    let two = serde_json::json!({ "block": "SPRAM", "count": 2 });
+    assert_eq!(held(&rows[1]), vec![(Value::from(120 * 256), two.clone()), (Value::from(120 * 256), two)]);
+    assert!(text.contains("; depth in 2 SPRAM; color in 2 SPRAM"), "{text}");
+    assert!(text.contains("; depth in none; color in none"), "{text}");
 }
 
 #[test]

@@ -125,6 +125,78 @@ fn page_is_that_of_the_json(folder: &Path, told: &Value) {
     }
     println!("{checked} figures of the page");
     assert!(checked > 120);
+    // In text and page a unit's row has the unit's own cells.
+    let machines = told["machines"].as_array().unwrap();
+    let mut rows = 0;
+    for unit in ["setup", "edge", "span", "term", "pixel", "depth"] {
+        let cells: Vec<String> = machines
+            .iter()
+            .map(|machine| {
+                let mut units = machine["units"].as_array().unwrap().iter();
+                let found = units.find(|found| found["unit"] == unit);
+                found.map_or("-".to_owned(), |found| format!("{}", found["estimate"]["est_ff"]))
+            })
+            .collect();
+        let name = format!("{unit}: est_ff");
+        let line = text.lines().find(|line| line.starts_with(&name)).unwrap();
+        assert_eq!(line[name.len()..].split_whitespace().collect::<Vec<_>>(), cells, "{line}");
+        let row = page.split("<tr><th>").find(|row| row.starts_with(&name)).unwrap();
+        let shown = row.split("<td").skip(1).map(|cell| cell.split(['>', '<']).nth(1).unwrap());
+        assert_eq!(shown.collect::<Vec<_>>(), cells, "{row}");
+        rows += 1;
+    }
+    assert_eq!(rows, 6);
+}
+
+/// A sphere seen from far away, with highlights of N·H: the scene's own equation is the form that Phong draws.
+const FAR: &str = "specular = \"halfway\"\n[camera]\neye = [0, 0, 2000]\ntarget = [0, 0, 0]\nangle = 0.07\n\
+    [[material]]\nname = \"m\"\ndiffuse = [0.8, 0.4, 0.3]\nspecular = 0.4\nexponent = 24\n\
+    [[object]]\nbuiltin = \"sphere\"\nmaterial = \"m\"\n";
+
+#[test]
+fn phong_is_judged_by_the_form_it_draws() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("far.toml"), FAR).unwrap();
+    let words = ["compare", "default:gouraud", "default,shade.kind=phong", "sphere", "far.toml"];
+    let more = [
+        "--with",
+        "default,shade.kind=fast-phong",
+        "--set",
+        "screen.width=160",
+        "--set",
+        "screen.height=120",
+    ];
+    let told = json(folder.path(), &[&words[..], &more].concat());
+    let of = |machine: usize, input: usize, key: &str| -> f64 {
+        told["machines"][machine]["inputs"][input][key].as_f64().unwrap()
+    };
+    for input in [0, 1] {
+        for figure in ["error", "mean"] {
+            let [form, shading] = ["form", "shading"].map(|of| format!("{of}_{figure}"));
+            assert_eq!(
+                of(0, input, &form),
+                of(0, input, &shading),
+                "the corners have the scene's own equation"
+            );
+        }
+        // Nearer than Gouraud shading, whose highlights go through the corners alone.
+        for machine in [1, 2] {
+            println!(
+                "{machine} {input}: {} of {}",
+                of(machine, input, "form_mean"),
+                of(0, input, "form_mean")
+            );
+            assert!(of(machine, input, "form_mean") < of(0, input, "form_mean"), "{machine}, {input}");
+            assert!(of(machine, input, "form_error") < of(0, input, "form_error"), "{machine}, {input}");
+        }
+    }
+    // Mirror highlights seen from near are far from what Phong draws.
+    assert!(of(1, 0, "shading_mean") > 1.5 * of(1, 0, "form_mean"));
+    assert!(of(2, 0, "shading_mean") > 1.05 * of(2, 0, "form_mean"));
+    // Where the scene is as SHADE has it, both distances are one.
+    for machine in [1, 2] {
+        assert!((of(machine, 1, "shading_mean") - of(machine, 1, "form_mean")).abs() < 0.02, "{machine}");
+    }
 }
 
 #[test]

@@ -3,6 +3,7 @@
 //! A part says its figures as JSON by `Serialize`, in the order of its fields, and as text by `lines`. To add a part, write such a struct,
 //! give [`Report`] a field for it, and give it a place in [`Report::text`].
 
+mod display;
 mod drawn;
 mod profile;
 mod timing;
@@ -12,6 +13,7 @@ use crate::compare::Comparison;
 use crate::occupancy::Occupancy;
 use crate::passes::Passes;
 use crate::setup_report::SetupReport;
+use display::Display;
 pub use drawn::Drawn;
 use drawn::counts;
 use edgewalk_golden::Order;
@@ -146,6 +148,13 @@ impl Report {
     #[must_use]
     pub fn at_clock(self, mhz: f64) -> Self {
         Report { traffic: self.traffic.map(|traffic| traffic.at_clock(mhz)), ..self }
+    }
+
+    /// With what clearing and a display of so many pictures a second ask of the memory, at a clock of so many MHz.
+    #[must_use]
+    pub fn with_display(self, machine: &Plan, waits: Waits, hz: f64, mhz: f64) -> Self {
+        let display = || Display::new(machine, waits, hz, mhz);
+        Report { traffic: self.traffic.map(|traffic| traffic.with_display(display())), ..self }
     }
 
     /// With these cycles.

@@ -89,6 +89,7 @@ pub use memories::Memories;
 pub use memory::Memory;
 pub use prefetch::prefetch;
 pub use run::{Rig, tick};
+pub use service::clocks_alone;
 pub use setup::{Culled, SetupClocks, cull, longest_setup, setup_clocks};
 pub use shadow::ShadowInputs;
 pub use tokens::Write;

@@ -15,7 +15,7 @@ mod roofline;
 
 pub use causes::{Causes, SIZES, Spent};
 pub use ranges::{Range, ranges};
-pub use roofline::{PortClocks, Roofline};
+pub use roofline::{PortClocks, Roofline, Window};
 pub use watch::Sent;
 
 use crate::tokens::for_channels;
@@ -42,7 +42,7 @@ pub fn profile(plan: &Plan, sent: &Sent, waits: Waits) -> Result<Profile, Foreig
     for_channels!(plan, C => {
         let mut free = Windows::new(plan, Waits::Never);
         run::<C>(plan, sent, Waits::Never, |_, _| (), |model, cycle| free.see(model, cycle))?;
-        let (mut windows, mut causes) = (Windows::beside(plan, waits, &free), Tracker::new(plan));
+        let (mut windows, mut causes) = (Windows::new(plan, waits), Tracker::new(plan));
         run::<C>(plan, sent, waits, |_, _| (), |model, cycle| {
             windows.see(model, cycle);
             causes.see(model, cycle);

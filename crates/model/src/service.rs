@@ -60,6 +60,17 @@ impl Service {
     }
 }
 
+/// Clocks of a memory that reads these addresses one after the other, or writes them, and does nothing else.
+#[must_use]
+pub fn clocks_alone(waits: Waits, addresses: impl IntoIterator<Item = u32>, writes: bool) -> u64 {
+    let mut service = Service::new(waits);
+    for addr in addresses {
+        if writes { service.access(None, Some(addr)) } else { service.access(Some(addr), None) }
+    }
+    let [first, second] = service.clocks();
+    first.max(second)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -38,7 +38,7 @@ use std::path::PathBuf;
 /// in yellow. The command compares machines, each beside golden as in `edgewalk render`. It does not take pictures
 /// of other programs.
 ///
-/// With several inputs, --with, --table or --page the command prints what features cost, as one table: estimated cells by
+/// With several inputs, --with, --table, --page or --energy the command prints what features cost, as one table: estimated cells by
 /// unit, clock and memory of each machine; cycles, bytes and distance from the shading equation of each machine on each
 /// input. There the shading `shadows` stands for gouraud with a map for each light.
 #[derive(clap::Args)]
@@ -50,7 +50,8 @@ use std::path::PathBuf;
   edgewalk compare default textbook sphere --stalls dram --out out/compare
   edgewalk compare default default,setup.lanes=1 sphere --synth ice40-hx8k
   edgewalk compare default default,shade.kind=phong sphere torus --with small --page features.html
-  edgewalk compare default default,shadow.light=perspective,blend.kind=constant:shadows sphere --table")]
+  edgewalk compare default default,shadow.light=perspective,blend.kind=constant:shadows sphere --table
+  edgewalk compare default default,setup.lanes=1 sphere --energy 100")]
 pub struct Args {
     /// A machine: `FILE|PRESET[,key=value...][:SHADING]`
     #[arg(value_name = "A")]
@@ -79,6 +80,10 @@ pub struct Args {
     /// Stalls of both memories: none, fixed, random, dram, with parameters as fixed:rd=2
     #[arg(long, value_name = "KIND", default_value = "none")]
     stalls: Waits,
+    /// In the table: energy of the first N triangles of each input in standard cells, by unit, with the tools of
+    /// `edgewalk energy`
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    energy: Option<u32>,
     #[command(flatten)]
     synth: SynthArgs,
     /// Output directory
@@ -93,7 +98,11 @@ impl Args {
     /// The input of two machines; none where a table is asked for.
     fn one_input(&self) -> Option<&str> {
         match &self.inputs[..] {
-            [input] if self.with.is_empty() && !self.table && self.page.is_none() => Some(input),
+            [input]
+                if self.with.is_empty() && !self.table && self.page.is_none() && self.energy.is_none() =>
+            {
+                Some(input)
+            }
             _ => None,
         }
     }
@@ -169,6 +178,8 @@ struct Asked {
     input: Input,
     /// None of a triangle file, which says itself how it is shaded.
     shading: Option<&'static str>,
+    /// Where a scene's colours are made.
+    shaded: Shaded,
 }
 
 impl Asked {
@@ -192,7 +203,7 @@ impl Asked {
             plan = machine.named(text, screen, &input.needs(&plan))?;
         }
         let shading = screen.is_none().then_some(shading);
-        Ok(Asked { name: name.to_owned(), plan, input, shading })
+        Ok(Asked { name: name.to_owned(), plan, input, shading, shaded })
     }
 }
 

@@ -11,7 +11,7 @@ use crate::verdict::Verdict;
 use anyhow::{Result, anyhow};
 use edgewalk_machine::Plan;
 use edgewalk_synth::estimate::{Estimate, Figure, Fit, Fits, fits};
-use edgewalk_synth::{Part, Target};
+use edgewalk_synth::{Part, Target, memories};
 use serde::Serialize;
 use std::fmt::Write as _;
 use std::time::Instant;
@@ -88,7 +88,7 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
             name: if name.is_empty() { "default".to_owned() } else { name.clone() },
             machine: plan.hash(),
             shape: format!("{:016x}", structure.shape),
-            fits: devices.iter().map(|device| fits(&estimate, device)).collect(),
+            fits: devices.iter().map(|device| fits(&estimate, memories(plan, part), device)).collect(),
             estimate,
             milliseconds: since.elapsed().as_secs_f64() * 1000.0,
         });

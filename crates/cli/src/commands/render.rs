@@ -37,6 +37,7 @@ use std::path::PathBuf;
   edgewalk render teapot.obj --out out/teapot --set screen.width=1280 --set screen.height=960
   edgewalk render sphere --shading constant --set interpolator.adders=1 --json
   edgewalk render sphere --stalls dram:miss=10 --clock 50
+  edgewalk render sphere --stalls dram --clock 50 --display 60
   edgewalk render sphere --stalls dram --profile
   edgewalk render sphere --ranges
   edgewalk render sphere --engine golden --shading phong
@@ -69,11 +70,25 @@ pub struct Args {
     /// Clock at which the report tells the traffic in MB/s; without it, in bytes a cycle
     #[arg(long, value_name = "MHZ", value_parser = mhz)]
     clock: Option<f64>,
+    /// Pictures a second of a display that reads the frame; the report then tells scan-out and clearing too
+    #[arg(long, value_name = "HZ", requires = "clock", value_parser = hertz)]
+    display: Option<f64>,
     #[command(flatten)]
     look: Look,
     /// Output directory
     #[arg(long, value_name = "DIR", default_value = "out/render")]
     out: PathBuf,
+}
+
+impl Args {
+    /// With rates at the clock, and what a display asks of the memory, where these were asked for.
+    fn at_clock(&self, report: Report, machine: &Plan) -> Report {
+        match (self.clock, self.display) {
+            (Some(mhz), Some(hz)) => report.at_clock(mhz).with_display(machine, self.stalls, hz, mhz),
+            (Some(mhz), None) => report.at_clock(mhz),
+            (None, _) => report,
+        }
+    }
 }
 
 /// Runs the command.
@@ -116,15 +131,19 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
     let (mut report, verdict) =
         pictures(&args.source.input, &frame, &machine, (args.engine, args.stalls), &out, talk.quiet, |_| ())?;
     report.order = order;
-    if let Some(mhz) = args.clock {
-        report = report.at_clock(mhz);
-    }
+    report = args.at_clock(report, &machine);
     args.look.at_frame(&frame, &machine, args.stalls, &mut report)?;
     out.write("report.json", document("report", &report)?)?;
     out.write("report.txt", report.text())?;
     out.publish(&FILES)?;
     talk.say(|| document("report", &report), || report.text())?;
     verdict.or_nothing(&args.source.input, frame.drawn() as u64, (machine.width, machine.height))
+}
+
+/// Pictures a second.
+fn hertz(text: &str) -> Result<f64, String> {
+    let rate = text.parse().ok().filter(|hz| (0.001..=100_000.0).contains(hz));
+    rate.ok_or_else(|| "permitted: 0.001 to 100000 Hz".to_owned())
 }
 
 /// A clock.

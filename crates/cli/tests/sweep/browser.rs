@@ -39,6 +39,17 @@ const AFTER: &str = r##"
   seen.bounds = document.querySelectorAll("#errors-chart .bound").length;
   await new Promise((done) => setTimeout(done, 300));
   seen.pixels = text("#pixels-said");
+  const set = (query, value, event) => { const at = of(query); at.value = value; at.dispatchEvent(new Event(event)); };
+  const marks = () => document.querySelectorAll("#front-chart [data-point]").length +
+    [...document.querySelectorAll("#front-chart .rest")].reduce((sum, path) => sum + (path.getAttribute("d").match(/M/g) ?? []).length, 0);
+  seen.all = marks();
+  set("#limit-figure", "bytes", "change");
+  seen.open = marks();
+  set("#limit-figure", "cycles", "change");
+  set("#limit-value", "400000", "input");
+  seen.most = marks();
+  set("#limit-way", "least", "change");
+  seen.least = marks();
 "##;
 
 /// The page in headless Chromium with its network cut; what it looks like in the end.
@@ -163,5 +174,14 @@ fn a_point_of_the_front_is_clicked_and_its_machine_is_the_one_of_its_row() {
     );
     for count in ["bars", "lines", "bounds"] {
         assert!(seen[count].as_u64() > Some(0), "{count}");
+    }
+    // A limit leaves the marks of the rows that keep it.
+    let cycles = |row: &&Value| row["report"]["cycles"]["total"].as_u64() <= Some(400_000);
+    let quick = rows.iter().filter(cycles).count();
+    assert!(quick > 0 && quick < rows.len(), "{quick}");
+    for (shown, wanted) in
+        [("all", rows.len()), ("open", rows.len()), ("most", quick), ("least", rows.len() - quick)]
+    {
+        assert_eq!(seen[shown], wanted, "{shown}");
     }
 }

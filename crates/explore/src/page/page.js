@@ -40,9 +40,17 @@ const start = () => {
   if (inputs.length > 1) byId("front-controls").append(select("only-input", "input", [["all", ""], ...inputs.map((name) => [name, name])], "", (v) => only.input = v));
   if (data.memories.length > 1) byId("front-controls").append(select("only-memory", "memory", [["all", ""], ...data.memories.map(([stalls, name]) => [name, stalls])], "", (v) => only.stalls = v));
 
+  // Rows beyond the limit of a figure are not shown; a figure that is not known keeps no limit.
+  const limit = { name: "", most: true, value: NaN };
+  const keeps = (row) => { const v = get(row, limit.name); return !limit.name || Number.isNaN(limit.value) || (typeof v === "number" && (limit.most ? v <= limit.value : v >= limit.value)); };
+  const number = document.createElement("input");
+  Object.assign(number, { id: "limit-value", type: "number", step: "any", ariaLabel: "limit" });
+  number.oninput = () => { limit.value = number.value === "" ? NaN : Number(number.value); front(); };
+  byId("front-controls").append(select("limit-figure", "only", [["all", ""], ...named], "", (v) => limit.name = v), select("limit-way", "", [["at most", "most"], ["at least", "least"]], "most", (v) => limit.most = v === "most"), number);
+
   let place = () => [0, 0];
   const front = () => {
-    const shown = rows.map((row, i) => [i, get(row, xName), get(row, yName)]).filter(([i, x, y]) => typeof x === "number" && typeof y === "number" && Object.entries(only).every(([name, value]) => !value || get(rows[i], name) === value));
+    const shown = rows.map((row, i) => [i, get(row, xName), get(row, yName)]).filter(([i, x, y]) => typeof x === "number" && typeof y === "number" && keeps(rows[i]) && Object.entries(only).every(([name, value]) => !value || get(rows[i], name) === value));
     order = shown.map((p) => p).sort((a, b) => a[1] - b[1] || a[2] - b[2]).map((p) => p[0]);
     const x = scale(extent(shown.map((p) => p[1])), L + 12, W - R - 12), y = scale(extent(shown.map((p) => p[2])), H - B - 12, T + 12);
     place = (i) => [x(get(rows[i], xName)), y(get(rows[i], yName))];

@@ -64,6 +64,8 @@ pub fn figures() -> Vec<(String, String)> {
         ("triangles", "triangles"),
         ("fragments", "fragments"),
         ("writes", "writes"),
+        ("bytes", "traffic/bytes"),
+        ("bytes_per_cycle", "traffic/bytes_per_cycle"),
         ("setup_mean", "setup/clocks/mean"),
         ("setup_p95", "setup/clocks/p95"),
         ("setup_most", "setup/clocks/most"),

@@ -1,10 +1,15 @@
-//! How far a picture is from the shading equation at each pixel, which is the same for every way of shading.
+//! How far a picture is from the shading equation at each pixel: the scene's own, which is the same for every way of shading,
+//! and the form of it that SHADE draws.
 
 use edgewalk_golden::{Rays, Shading, Visibility};
 use edgewalk_host::input::Input;
 use edgewalk_host::raster::{Raster, golden_fill};
 use edgewalk_machine::Plan;
+use edgewalk_scene::{Camera, PixelMethod, Scene, Specular, Surface};
 use serde::Serialize;
+
+/// How many times as far away as the camera a viewer stands who is far away: directions differ by a 10^9th.
+const FAR: f64 = 1e9;
 
 /// The equation at each pixel of a scene, from golden in f64: the normal is linear over the surface in the world.
 pub struct Equation {
@@ -40,9 +45,23 @@ impl Equation {
     #[must_use]
     pub fn of(input: &Input, machine: &Plan) -> Option<Equation> {
         let (scene, surface) = input.surface(machine)?;
-        // Which triangle a pixel shows is the same in all of golden's ways of shading.
-        let shaded = edgewalk_golden::shade(scene, &surface, Shading::Gouraud, golden_fill(machine));
-        Some(Equation { shown: shaded.picture.id.iter().map(|id| *id >= 0).collect(), rgb: shaded.truth })
+        Some(Equation::at_pixels(scene, &surface, machine, &Visibility::Full))
+    }
+
+    /// In the form that SHADE draws: mirror highlights are those of ch. 7.12, and Phong sees them from far away. None of a
+    /// triangle file.
+    #[must_use]
+    pub fn of_shade(input: &Input, machine: &Plan, method: PixelMethod) -> Option<Equation> {
+        let (scene, surface) = input.surface(machine)?;
+        let Camera { eye, target, .. } = scene.camera;
+        let eye = match method {
+            PixelMethod::FastPhong => eye,
+            PixelMethod::Phong => target + FAR * (eye - target),
+        };
+        let specular = if scene.specular == Specular::Mirror { Specular::Halfway } else { scene.specular };
+        // The surface has its places on the screen: the camera counts for highlights alone.
+        let form = Scene { camera: Camera { eye, ..scene.camera }, specular, ..scene.clone() };
+        Some(Equation::at_pixels(&form, &surface, machine, &Visibility::Full))
     }
 
     /// With the shadows that rays find; none of a triangle file.
@@ -50,9 +69,14 @@ impl Equation {
     pub fn with_shadows(input: &Input, machine: &Plan) -> Option<Equation> {
         let (scene, surface) = input.surface(machine)?;
         let rays = Visibility::Rays(Rays::new(&scene.mesh));
-        let shaded =
-            edgewalk_golden::render(scene, &surface, Shading::Gouraud, golden_fill(machine), &rays).shaded;
-        Some(Equation { shown: shaded.picture.id.iter().map(|id| *id >= 0).collect(), rgb: shaded.truth })
+        Some(Equation::at_pixels(scene, &surface, machine, &rays))
+    }
+
+    fn at_pixels(scene: &Scene, surface: &Surface, machine: &Plan, visibility: &Visibility) -> Equation {
+        // Which triangle a pixel shows is the same in all of golden's ways of shading.
+        let fill = golden_fill(machine);
+        let shaded = edgewalk_golden::render(scene, surface, Shading::Gouraud, fill, visibility).shaded;
+        Equation { shown: shaded.picture.id.iter().map(|id| *id >= 0).collect(), rgb: shaded.truth }
     }
 
     /// Begins to measure a picture.

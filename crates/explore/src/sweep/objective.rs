@@ -42,6 +42,10 @@ const fn estimated(name: &'static str, pointer: &'static str, doc: &'static str)
 /// All of them.
 pub const OBJECTIVES: &[Objective] = &[
     Objective { sums: true, ..least("cycles", "/report/cycles/total", "cycles of the frame, simulated") },
+    Objective {
+        sums: true,
+        ..least("bytes", "/report/traffic/bytes", "bytes at the ports of the memories, simulated")
+    },
     least("z_error", "/report/comparison/z_error", "largest depth error, LSB, simulated"),
     least("color_error", "/report/comparison/color_error", "largest colour error, LSB, simulated"),
     least("z_bound", "/report/comparison/z_bound_for_input", "bound of it for these triangles, LSB, proved"),

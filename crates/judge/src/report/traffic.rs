@@ -1,5 +1,6 @@
 //! What passes at the machine's ports: accesses, bits, bytes, and with dynamic memories their pages.
 
+use super::display::Display;
 use crate::occupancy::ratio;
 use edgewalk_host::raster::Cycles;
 use edgewalk_machine::{Field, Plan};
@@ -23,6 +24,9 @@ pub struct Traffic {
     /// By memory; only with `--stalls dram`.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pages: Vec<Pages>,
+    /// Clearing and a display, where this was asked for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    display: Option<Display>,
 }
 
 /// A port of the machine.
@@ -83,7 +87,7 @@ impl Traffic {
         let bytes = ports.iter().filter(|port| port.direction != Direction::In).map(|port| port.bytes).sum();
         let pages = if matches!(waits, Waits::Dram(_)) { pages(machine, cycles) } else { Vec::new() };
         let bytes_per_cycle = per_cycle(bytes, cycles.total);
-        Traffic { clock_mhz: None, ports, bytes, bytes_per_cycle, mb_per_s: None, pages }
+        Traffic { clock_mhz: None, ports, bytes, bytes_per_cycle, mb_per_s: None, pages, display: None }
     }
 
     /// With megabytes a second at a clock of so many MHz.
@@ -95,6 +99,12 @@ impl Traffic {
             port.mb_per_s = Some(port.bytes_per_cycle * mhz);
         }
         self
+    }
+
+    /// With the loads of clearing and of a display.
+    #[must_use]
+    pub fn with_display(self, display: Display) -> Self {
+        Traffic { display: Some(display), ..self }
     }
 
     /// As lines of text.
@@ -122,6 +132,7 @@ impl Traffic {
                 "    pages of {memory}: {hits} hits ({hit:.1} %), {misses} misses, {turns} turns, {refreshes} refreshes{lines}"
             );
         }
+        self.display.iter().for_each(|display| t += &display.lines());
         t
     }
 }

@@ -2,18 +2,20 @@
 //! datapath that never keeps it waiting.
 //!
 //! ```text
-//!  spans ───│─────────│──────────────│───  windows of at least 256 cycles of the datapath, ending at the same spans in both runs
+//!  spans ───│─────────│──────────────│───  windows of at least 256 cycles of the datapath
 //!  datapath │ D1      │ D2           │
-//!  memory   │ M1 │    │ M2                │    cycles to be expected = sum of the greater of both
+//!  reads    │ · ·  ·· │ ·   · · ·  · │    from read to read PIXEL's own cycles P, and the clocks of the memory M
+//!  cycles to be expected = sum over the windows of the greater of D, and of the sum over the reads of the greater of P and M
 //! ```
-//! Windows are there because work of one kind does not hide work of the other from another part of the frame.
+//! Windows are there because work of one kind does not hide work of the other from another part of the frame. PIXEL waits while the
+//! memory takes no read, so its own cycles, of pixels beside the screen too, hide behind one read alone. SETUP, EDGE and SPAN go on.
 
 use crate::counters::PACED;
 use crate::io::Cycle;
 use crate::machine::Model;
 use crate::service::Service;
 use crate::waits::Waits;
-use edgewalk_machine::Plan;
+use edgewalk_machine::{Activity, Plan};
 
 /// Least cycles of a window.
 const WINDOW: u64 = 256;
@@ -38,8 +40,25 @@ pub struct Roofline {
     pub datapath: u64,
     /// Clocks of every port that was used.
     pub ports: Vec<PortClocks>,
-    /// Of each window the cycles of the datapath, and the clocks of the port that works longest.
-    pub windows: Vec<[u64; 2]>,
+    /// Parts of the frame.
+    pub windows: Vec<Window>,
+}
+
+/// A part of the frame.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Window {
+    /// Cycles of the datapath.
+    pub datapath: u64,
+    /// Of each read of a depth, until the next: PIXEL's own cycles, and the clocks of the port that works longest.
+    pub reads: Vec<[u32; 2]>,
+}
+
+impl Window {
+    /// Cycles to be expected if datapath and memories took so many times as long: of the datapath, and of PIXEL with the memory.
+    fn expected(&self, datapath: f64, memory: f64) -> [f64; 2] {
+        let read = |[own, clocks]: &[u32; 2]| (f64::from(*own) * datapath).max(f64::from(*clocks) * memory);
+        [self.datapath as f64 * datapath, self.reads.iter().map(read).sum()]
+    }
 }
 
 impl Roofline {
@@ -64,13 +83,15 @@ impl Roofline {
     /// Cycles to be expected if datapath and memories took so many times as long.
     #[must_use]
     pub fn expected(&self, datapath: f64, memory: f64) -> f64 {
-        self.windows.iter().map(|[d, m]| (*d as f64 * datapath).max(*m as f64 * memory)).sum()
+        let windows = self.windows.iter().map(|window| window.expected(datapath, memory));
+        windows.map(|[datapath, memory]| datapath.max(memory)).sum()
     }
 
     /// Windows in which a memory takes longer than the datapath.
     #[must_use]
     pub fn windows_of_memory(&self) -> usize {
-        self.windows.iter().filter(|[datapath, memory]| memory > datapath).count()
+        let windows = self.windows.iter().map(|window| window.expected(1.0, 1.0));
+        windows.filter(|[datapath, memory]| memory > datapath).count()
     }
 }
 
@@ -78,21 +99,21 @@ impl Roofline {
 pub(super) struct Windows {
     services: [Service; PACED],
     /// Reads of each word memory that were seen.
-    reads: Vec<u64>,
+    word_reads: Vec<u64>,
     /// Reads of the colour memory that were seen.
     color_reads: u64,
     blends: bool,
-    /// Spans that have entered PIXEL at the end of each window.
-    ends: Vec<u64>,
-    /// The ends are those of another run.
-    follows: bool,
-    cycles: Vec<u64>,
-    /// Of each window the clocks of the port that works longest.
-    clocks: Vec<u64>,
-    now: u64,
-    /// Cycle and clocks at the start of the window.
-    start: u64,
+    /// Of each window the cycles, and how many depths were read before its end.
+    closed: Vec<(u64, usize)>,
+    /// Of each read of a depth, until the next: PIXEL's own cycles, and the clocks of the port that works longest.
+    reads: Vec<[u32; 2]>,
+    /// PIXEL's own cycles since the last read.
+    own: u32,
+    /// Clocks of the ports at the last read.
     before: [[u64; 2]; PACED],
+    now: u64,
+    /// Cycle at the start of the window.
+    start: u64,
     spans: u64,
 }
 
@@ -101,37 +122,36 @@ impl Windows {
     pub fn new(plan: &Plan, waits: Waits) -> Self {
         Windows {
             services: std::array::from_fn(|_| Service::new(waits)),
-            reads: vec![0; plan.word_memories().len()],
+            word_reads: vec![0; plan.word_memories().len()],
             color_reads: 0,
             blends: plan.blend.is_there(),
-            ends: Vec::new(),
-            follows: false,
-            cycles: Vec::new(),
-            clocks: Vec::new(),
+            closed: Vec::new(),
+            reads: Vec::new(),
+            own: 0,
+            before: [[0; 2]; PACED],
             now: 0,
             start: 0,
-            before: [[0; 2]; PACED],
             spans: 0,
         }
-    }
-
-    /// Of a run with the windows of another.
-    pub fn beside(plan: &Plan, waits: Waits, other: &Windows) -> Self {
-        Windows { ends: other.ends.clone(), follows: true, ..Windows::new(plan, waits) }
     }
 
     /// A cycle, and the machine behind it.
     pub fn see<const C: usize>(&mut self, model: &Model<C>, cycle: &Cycle<C>) {
         self.now += 1;
-        self.services[0].access(cycle.read, cycle.write().map(|write| write.addr));
+        if cycle.read.is_some() {
+            self.settle();
+            self.reads.push([0; 2]);
+        }
+        self.own += u32::from(matches!(cycle.outputs.activity, Activity::Draw | Activity::Offscreen));
         let counters = model.counters();
+        self.services[0].access(cycle.read, cycle.write().map(|write| write.addr));
         if self.blends {
             let blend = &cycle.outputs.blend;
             let read = blend.crd.filter(|_| counters.color_reads != self.color_reads);
             self.color_reads = counters.color_reads;
             self.services[1].access(read, cycle.color_write().map(|write| write.addr));
         }
-        for (place, reads) in self.reads.iter_mut().enumerate() {
+        for (place, reads) in self.word_reads.iter_mut().enumerate() {
             if counters.word_reads[place] != *reads {
                 *reads = counters.word_reads[place];
                 self.services[2 + place].access(model.asks()[place].addr, None);
@@ -141,32 +161,34 @@ impl Windows {
             return;
         }
         self.spans = counters.spans;
-        let ends = match self.follows {
-            true => self.ends.get(self.cycles.len()).is_some_and(|end| self.spans >= *end),
-            false => self.now - self.start >= WINDOW,
-        };
-        if ends {
+        if self.now - self.start >= WINDOW {
             self.close();
         }
     }
 
-    fn close(&mut self) {
+    /// What came since the last read belongs to it.
+    fn settle(&mut self) {
         let clocks = self.services.each_ref().map(Service::clocks);
         let spent = clocks
             .iter()
             .zip(&self.before)
             .flat_map(|(now, before)| [now[0] - before[0], now[1] - before[1]]);
-        self.clocks.push(spent.max().unwrap_or(0));
-        self.cycles.push(self.now - self.start);
-        if !self.follows {
-            self.ends.push(self.spans);
+        let own = std::mem::take(&mut self.own);
+        if let Some(last) = self.reads.last_mut() {
+            *last = [own, spent.max().unwrap_or(0).try_into().unwrap_or(u32::MAX)];
         }
-        (self.start, self.before) = (self.now, clocks);
+        self.before = clocks;
+    }
+
+    fn close(&mut self) {
+        self.closed.push((self.now - self.start, self.reads.len()));
+        self.start = self.now;
     }
 
     /// Beside the run with memories that are always ready.
     pub fn roofline(mut self, plan: &Plan, mut free: Windows) -> Roofline {
-        self.close();
+        self.settle();
+        free.settle();
         free.close();
         let names = ["depth", "color"].into_iter();
         let names = names.chain(plan.word_memories().into_iter().map(|(_, memory)| memory.name));
@@ -177,7 +199,13 @@ impl Windows {
             let both = words.into_iter().zip([first, second]).filter(|(_, clocks)| *clocks > 0);
             ports.extend(both.map(|(port, clocks)| PortClocks { memory, port, clocks }));
         }
-        let windows = free.cycles.iter().zip(&self.clocks).map(|(datapath, memory)| [*datapath, *memory]);
-        Roofline { cycles: self.now, datapath: free.now, ports, windows: windows.collect() }
+        let mut reads = free.reads.iter().zip(&self.reads).map(|([own, _], [_, clocks])| [*own, *clocks]);
+        let mut before = 0;
+        let mut windows = Vec::new();
+        for (datapath, end) in free.closed {
+            windows.push(Window { datapath, reads: reads.by_ref().take(end - before).collect() });
+            before = end;
+        }
+        Roofline { cycles: self.now, datapath: free.now, ports, windows }
     }
 }

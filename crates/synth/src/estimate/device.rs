@@ -1,6 +1,7 @@
 //! Whether an estimate fits a device.
 
 use super::fit::Estimate;
+use crate::memories::{Memory, place};
 use crate::target::Target;
 use serde::Serialize;
 
@@ -13,12 +14,14 @@ pub struct Fits {
     pub fits: Option<bool>,
     /// The same in words, with the cells or blocks that decide.
     pub text: String,
+    /// The memories outside the machine, and the blocks that hold each. They do not decide whether the machine fits.
+    pub memories: Vec<Memory>,
 }
 
-/// Whether a machine of this estimate fits the device, by its cells and its own memory blocks. Memories outside the
-/// machine are not counted.
+/// Whether a machine of this estimate fits the device, by its cells and its own memory blocks; and which of the memories
+/// outside the machine the blocks that are left hold.
 #[must_use]
-pub fn fits(of: &Estimate, device: &Target) -> Fits {
+pub fn fits(of: &Estimate, memories: Vec<Memory>, device: &Target) -> Fits {
     let of_cells = device.logic_cells.unwrap_or(0) as f64;
     let blocks: u64 = device.blocks.iter().filter(|block| block.holds_own).map(|block| block.count).sum();
     let cells = of.est_cells;
@@ -38,5 +41,11 @@ pub fn fits(of: &Estimate, device: &Target) -> Fits {
         Some(false) => "does not fit",
         None => "may fit",
     };
-    Fits { device: device.name, fits, text: format!("{word}: {said}") }
+    let memories = place(memories, device.blocks, of.est_ram);
+    let held = memories.iter().map(|memory| match memory.held_by {
+        Some(by) => format!("; {} in {} {}", memory.name, by.count, by.block),
+        None => format!("; {} in none", memory.name),
+    });
+    let text = format!("{word}: {said}{}", held.collect::<String>());
+    Fits { device: device.name, fits, text, memories }
 }

@@ -3,7 +3,8 @@
 //! ```text
 //!  machines ─> netlists ─> estimate of each unit ─┐
 //!  machines x inputs ─> pictures, cycles ─────────┼─> text, JSON, page
-//!  inputs ─> shading equation ─> distance ────────┘
+//!  inputs ─> shading equation ─> distance ────────┤
+//!  machines x inputs ─> transitions ─> energy ────┘
 //! ```
 
 mod page;
@@ -11,6 +12,7 @@ mod text;
 
 use super::{Args, Asked, apart, drawn};
 use crate::Talk;
+use crate::cell_energy::{CellEnergy, Drawing};
 use crate::cost::Synthesiser;
 use crate::document::document;
 use crate::estimator::Estimator;
@@ -21,6 +23,7 @@ use anyhow::{Context, Result, anyhow};
 use edgewalk_explore::sweep::equation::{Distance, Equation, Measure};
 use edgewalk_golden::Shading;
 use edgewalk_host::input::{Input, Shaded};
+use edgewalk_host::port::to_port;
 use edgewalk_judge::passes::beside_golden;
 use edgewalk_judge::report::Report;
 use edgewalk_machine::Plan;
@@ -96,6 +99,8 @@ struct Picture {
     /// Cycles of the lights' maps.
     maps: u64,
     distance: Option<Distance>,
+    /// From the equation in the form that the machine draws.
+    from_form: Option<Distance>,
     verdict: Verdict,
 }
 
@@ -113,6 +118,8 @@ impl Picture {
             "color_error": at("/comparison/color_error"),
             "shading_error": self.distance.map(|distance| distance.largest),
             "shading_mean": self.distance.map(|distance| distance.mean),
+            "form_error": self.from_form.map(|distance| distance.largest),
+            "form_mean": self.from_form.map(|distance| distance.mean),
         }))
     }
 }
@@ -136,6 +143,8 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
         }
         None => None,
     };
+    let tools = args.synth.tools();
+    let cells = args.energy.map(|_| CellEnergy::new(tools.cache(), tools.limit())).transpose()?;
     let out = Staging::new(&args.out)?;
     let (mut machines, mut verdict, mut drawn) = (Vec::new(), Verdict::Pass, 0);
     for column in &columns {
@@ -149,6 +158,14 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
                     drawn += 1;
                     let told = picture.value()?;
                     told.as_object().into_iter().flatten().for_each(|(key, value)| row[key] = value.clone());
+                    if let (Some(cells), Some(triangles)) = (&cells, args.energy) {
+                        row["energy"] = energy(
+                            cells,
+                            triangles,
+                            column,
+                            &Asked::new(&column.asked, input, args, machine)?,
+                        )?;
+                    }
                 }
                 Err(why) => row["reason"] = format!("{why:#}").into(),
             }
@@ -177,6 +194,20 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
     Ok(verdict)
 }
 
+/// Cycles of a frame whose energy is computed, at most.
+const CYCLES: u64 = 1_000_000;
+
+/// Energy of the first triangles in standard cells. Of pictures in passes none: the netlist draws one pass.
+fn energy(cells: &CellEnergy, triangles: u32, column: &Column, asked: &Asked) -> Result<Value> {
+    if column.shadows {
+        return Ok(json!({ "reason": format!(":{SHADOWS} draws in passes; energy is that of one") }));
+    }
+    let port = to_port(&asked.input.frame(&asked.plan)?, &asked.plan)?;
+    let triangles = port.triangles.len().min(triangles as usize);
+    let drawing = Drawing { machine: &asked.plan, port: &port, triangles, cycles: CYCLES };
+    Ok(serde_json::to_value(cells.measure(&drawing, None, &|| ())?)?)
+}
+
 /// Writes the page where it was asked for.
 fn write(file: &Path, page: &str) -> Result<()> {
     std::fs::write(file, page).with_context(|| format!("--page {}", file.display()))
@@ -189,15 +220,22 @@ fn picture(column: &Column, input: &Input, args: &Args, machine: &MachineArgs) -
         return shadowed(&asked, args.stalls);
     }
     let equation = Equation::of(&asked.input, &asked.plan);
-    let mut measure = equation.as_ref().map(Equation::measure);
+    let form = match asked.shaded {
+        Shaded::Corners(_) => None,
+        Shaded::Pixels(method) => Equation::of_shade(&asked.input, &asked.plan, method),
+    };
+    let [mut measure, mut of_form] = [&equation, &form].map(|of| of.as_ref().map(Equation::measure));
     let mut maps = 0;
     let report = drawn(&asked, args.stalls, |raster| {
         maps = raster.lights.iter().map(|light| light.cycles.total).sum();
-        measure.iter_mut().for_each(|measure| measure.add(raster));
+        measure.iter_mut().chain(&mut of_form).for_each(|measure| measure.add(raster));
         Ok(())
     })?;
     let verdict = report.comparison.as_ref().map_or(Verdict::Vacuous, |found| found.verdict());
-    Ok(Picture { report, maps, distance: measure.map(Measure::distance), verdict })
+    let distance = measure.map(Measure::distance);
+    // What shades at the corners draws the scene's own equation.
+    let from_form = of_form.map(Measure::distance).or(distance);
+    Ok(Picture { report, maps, distance, from_form, verdict })
 }
 
 /// Draws a scene with a map for each of its lights, beside the equation with shadows by rays.
@@ -217,5 +255,5 @@ fn shadowed(asked: &Asked, waits: Waits) -> Result<Picture> {
     });
     let maps = drawn.lights.iter().map(|light| light.cycles.total).sum();
     let report = Report::new(asked.input.name(), surface.triangles.len() as u64, &asked.plan, &drawn, waits);
-    Ok(Picture { report, maps, distance, verdict: passes.verdict() })
+    Ok(Picture { report, maps, distance, from_form: distance, verdict: passes.verdict() })
 }

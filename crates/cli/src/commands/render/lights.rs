@@ -67,9 +67,7 @@ pub fn run(args: &Args, machine: &Plan, talk: Talk) -> Result<Verdict> {
         true => args.look.refuse()?,
         false => args.look.at_port(&port, machine, args.stalls, &mut report)?,
     }
-    if let Some(mhz) = args.clock {
-        report = report.at_clock(mhz);
-    }
+    report = args.at_clock(report, machine);
     out.write("report.json", document("report", &report)?)?;
     out.write("report.txt", report.text())?;
     out.publish(&FILES)?;

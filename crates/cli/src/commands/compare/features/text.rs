@@ -70,15 +70,41 @@ pub fn rows(told: &Value) -> Vec<Row> {
             ("bytes", "bytes"),
             ("shading error, largest", "shading_error"),
             ("shading error, mean", "shading_mean"),
+            ("error of the form, largest", "form_error"),
+            ("error of the form, mean", "form_mean"),
             ("depth error, LSB", "z_error"),
             ("colour error, LSB", "color_error"),
+            ("energy, thousand gates", "energy/kge"),
+            ("energy, MHz without wires", "energy/mhz"),
+            ("energy, pJ a cycle", "energy/energy/cycle_pj"),
+            ("energy, pJ of the triangles", "energy/energy/frame_pj"),
+            ("energy, pJ a pixel", "energy/energy/pixel_pj"),
+            ("energy, not computed", "energy/reason"),
             ("not drawn", "reason"),
         ] {
             rows.push(row(format!("{input}: {name}"), &|_| Some(format!("/inputs/{number}/{key}"))));
         }
+        for unit in energies(machines, number) {
+            let place = |_: &Value| Some(format!("/inputs/{number}/energy/energy/units/{unit}"));
+            rows.push(row(format!("{input}: energy, pJ of {unit}"), &place));
+        }
     }
     rows.retain(|row| row.cells.iter().any(Option::is_some));
     rows
+}
+
+/// Units whose energy on this input is known.
+fn energies(machines: &[Value], input: usize) -> Vec<String> {
+    let mut units: Vec<String> = Vec::new();
+    let known = machines
+        .iter()
+        .filter_map(|machine| machine.pointer(&format!("/inputs/{input}/energy/energy/units"))?.as_object());
+    for unit in known.flat_map(|units| units.keys()) {
+        if !units.contains(unit) {
+            units.push(unit.clone());
+        }
+    }
+    units
 }
 
 /// A figure as people read it.
@@ -121,4 +147,6 @@ pub fn text(told: &Value) -> String {
 
 /// What the figures are.
 pub const NOTE: &str = "est_*: estimates on an iCE40, by unit alone; a machine is less than the sum of its units. Bits of memory: outside the machine.\n\
-    Shading error: distance from the shading equation at each pixel, LSB of 8 bits; of shadows, from the equation with shadows by rays.\n";
+    Shading error: distance from the shading equation at each pixel, LSB of 8 bits; of shadows, from the equation with shadows by rays.\n\
+    Error of the form: distance from the form of that equation that SHADE draws: highlights of N·H, in Phong a viewer far away.\n\
+    Energy: of the first triangles, in cells for 0.18 um without wires; it compares machines, and is no promise of a chip.\n";

@@ -1,0 +1,240 @@
+//! Energy of a machine in standard cells while it draws a frame: for `energy`, and for tables of machines.
+
+use crate::cost::cache_folder;
+use crate::scratch::Scratch;
+use anyhow::{Context, Result, anyhow};
+use edgewalk_host::port::PortFrame;
+use edgewalk_machine::Plan;
+use edgewalk_model::{Counters, Pass};
+use edgewalk_netlist::Transitions;
+use edgewalk_synth::{Activity, Cache, Design, LIBRARY, Library, Part, Placeless, Power, gates, power};
+use serde::Serialize;
+use std::collections::BTreeMap;
+use std::fmt::Write as _;
+use std::path::Path;
+use std::time::Duration;
+
+/// Where machines are measured.
+pub struct CellEnergy {
+    library: Library,
+    cache: Cache,
+    /// The folder in which the cache's entries are made goes with it.
+    _scratch: Scratch,
+    limit: Duration,
+}
+
+/// What a machine was measured with.
+pub struct Drawing<'d> {
+    /// The machine.
+    pub machine: &'d Plan,
+    /// The frame at its port.
+    pub port: &'d PortFrame,
+    /// Draw so many triangles.
+    pub triangles: usize,
+    /// Stop after so many cycles.
+    pub cycles: u64,
+}
+
+impl CellEnergy {
+    /// With the library of the system.
+    ///
+    /// # Errors
+    /// No library, or a folder that cannot be written.
+    pub fn new(cache: Option<&Path>, limit: u64) -> Result<CellEnergy> {
+        let library = Library::read(LIBRARY.as_ref())?;
+        let folder = cache_folder(cache)?;
+        let scratch = Scratch::within(&folder).with_context(|| format!("--cache {}", folder.display()))?;
+        let cache = Cache::new(folder, scratch.path().to_owned());
+        Ok(CellEnergy { library, cache, _scratch: scratch, limit: Duration::from_secs(limit) })
+    }
+
+    /// Draws with the machine's netlist, counts transitions, and computes area, clock and energy at so many MHz, or at the
+    /// fastest clock. `taken` is told of each triangle.
+    ///
+    /// # Errors
+    /// A tool is missing, fails or takes too long; a machine that cannot be built.
+    pub fn measure(&self, of: &Drawing, mhz: Option<f64>, taken: &dyn Fn()) -> Result<Report> {
+        let (counted, counters) = drawn(of, taken)?;
+        let design = Design::new(of.machine, Part::MACHINE)
+            .map_err(|e| anyhow!("the netlist cannot be built: {e}"))?;
+        let gates = gates(&design, &self.library, &self.cache, self.limit)?;
+        let cycles = counted.cycles();
+        let a_cycle = |count: u64| count as f64 / cycles as f64;
+        let activity = counted.bits().into_iter().map(|(name, bit)| {
+            (name, Activity { transitions: a_cycle(bit.transitions), high: a_cycle(bit.high) })
+        });
+        let mhz = mhz.unwrap_or(1000.0 / gates.placeless.ns);
+        let power = power(&gates, &self.library, &activity.collect(), 1000.0 / mhz, &self.cache, self.limit)?;
+        Ok(Report {
+            energy: energy(&power, mhz, cycles, &counters),
+            machine: of.machine.hash(),
+            library: "osu018",
+            placeless: gates.placeless,
+            mhz,
+            power,
+            frame: frame(cycles, &counters),
+        })
+    }
+}
+
+/// The report, as text and as JSON.
+#[derive(Serialize)]
+pub struct Report {
+    /// Hash of the machine.
+    machine: String,
+    library: &'static str,
+    #[serde(flatten)]
+    placeless: Placeless,
+    /// Clock of the watts, MHz.
+    mhz: f64,
+    power: Power,
+    frame: Frame,
+    energy: Energy,
+}
+
+/// What was drawn.
+#[derive(Serialize)]
+struct Frame {
+    cycles: u64,
+    triangles: u64,
+    fragments: u64,
+    writes: u64,
+}
+
+/// Energy, pJ. It does not depend on the clock, but for the leakage.
+#[derive(Serialize)]
+struct Energy {
+    cycle_pj: f64,
+    frame_pj: f64,
+    /// Of a triangle taken in; null if none was.
+    triangle_pj: Option<f64>,
+    /// Of a pixel written; null if none was.
+    pixel_pj: Option<f64>,
+    /// Of the frame, by unit.
+    units: BTreeMap<String, f64>,
+}
+
+/// Draws, and counts transitions.
+fn drawn(of: &Drawing, told: &dyn Fn()) -> Result<(Transitions, Counters)> {
+    let Drawing { machine, port, triangles, cycles } = *of;
+    let mut counted: Option<Transitions> = None;
+    let taken = port.triangles.iter().take(triangles).copied().inspect(|_| told());
+    let passes = [Pass { triangles, ..Pass::all(port.state()?) }];
+    let counters = edgewalk_lockstep::render_rtl_with(machine, taken, &passes, port.words(), |sim| {
+        let counted = counted.get_or_insert_with(|| Transitions::new(sim, "edgewalk"));
+        counted.sample(sim);
+        counted.cycles() < cycles
+    })?;
+    Ok((counted.context("the machine did not run")?, counters))
+}
+
+fn frame(cycles: u64, counters: &Counters) -> Frame {
+    let Counters { triangles, fragments, writes, .. } = *counters;
+    Frame { cycles, triangles, fragments, writes }
+}
+
+fn energy(power: &Power, mhz: f64, cycles: u64, counters: &Counters) -> Energy {
+    // W/MHz is uJ a cycle.
+    let frame = |watts: f64| watts / mhz * 1e6 * cycles as f64;
+    let frame_pj = frame(power.watts);
+    let each = |count: u64| (count > 0).then(|| frame_pj / count as f64);
+    Energy {
+        cycle_pj: frame_pj / cycles as f64,
+        frame_pj,
+        triangle_pj: each(counters.triangles),
+        pixel_pj: each(counters.writes),
+        units: power.units.iter().map(|unit| (unit.unit.clone(), frame(unit.watts))).collect(),
+    }
+}
+
+impl Report {
+    /// As text. Writing to a string cannot fail.
+    pub fn text(&self) -> String {
+        let Report { machine, placeless, mhz, power, frame, energy, library } = self;
+        let Placeless { tools, area_um2, kge, flip_flops, ns, path, units, .. } = placeless;
+        let mut t = format!("machine {machine} in cells of {library}; {}; {}\n", tools[0], tools[1]);
+        _ = writeln!(
+            t,
+            "    {:<10}{:>12}{:>9}{:>8}{:>12}{:>9}",
+            "unit", "area um2", "FF", "share", "nJ a frame", "share"
+        );
+        for (area, watts) in units.iter().zip(&power.units) {
+            _ = writeln!(
+                t,
+                "    {:<10}{:>12.0}{:>9}{:>6.1} %{:>12.2}{:>7.1} %",
+                area.unit,
+                area.area_um2,
+                area.flip_flops,
+                100.0 * area.area_um2 / area_um2,
+                energy.units[&area.unit] / 1000.0,
+                100.0 * watts.watts / power.watts
+            );
+        }
+        _ = writeln!(
+            t,
+            "area {:.3} mm2, {kge:.1} thousand gates (NAND2X1), {flip_flops} flip-flops",
+            area_um2 / 1e6
+        );
+        _ = writeln!(t, "clock {ns:.3} ns, {:.1} MHz without wires: {} to {}", 1000.0 / ns, path[0], path[1]);
+        _ = writeln!(
+            t,
+            "power {:.2} mW at {mhz:.1} MHz, {:.4} of it leakage; transitions counted of {} of {flip_flops} flip-flops",
+            1e3 * power.watts,
+            1e3 * power.leakage_watts,
+            power.counted
+        );
+        _ = writeln!(
+            t,
+            "energy {:.1} pJ a cycle, {:.1} nJ in {} cycles",
+            energy.cycle_pj,
+            energy.frame_pj / 1000.0,
+            frame.cycles
+        );
+        for (what, count, pj) in [
+            ("triangle", frame.triangles, energy.triangle_pj),
+            ("pixel written", frame.writes, energy.pixel_pj),
+        ] {
+            if let Some(pj) = pj {
+                _ = writeln!(t, "       {pj:.1} pJ a {what}, of {count}");
+            }
+        }
+        t.trim_end().to_owned()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use edgewalk_host::draw::draw_frame;
+    use edgewalk_host::input::{Input, Shaded};
+    use edgewalk_host::port::to_port;
+    use edgewalk_machine::Machine;
+    use edgewalk_model::Waits;
+    use edgewalk_scene::PixelMethod;
+
+    const SQUARE: &str = "[[material]]\nname = \"m\"\ndiffuse = 0.5\nspecular = 0.3\nexponent = 20\n[[object]]\n\
+        positions = [[-1, -1, 0], [1, -1, 0.1], [1, 1, 0], [-1, 1, 0.2]]\nfaces = [[0, 1, 2], [0, 2, 3]]\n\
+        material = \"m\"\n";
+
+    /// The netlist reads the records and tables of the frame: with empty ones it takes other cycles.
+    #[test]
+    fn shaded_frame_takes_the_models_cycles() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let scene = folder.path().join("square.toml");
+        std::fs::write(&scene, SQUARE).expect("a file");
+        let mut machine = Machine::default();
+        for (key, value) in [("screen.width", "64"), ("screen.height", "48"), ("shade.kind", "fast-phong")] {
+            machine.set(key, value).expect("a key");
+        }
+        let machine = machine.plan().expect("can be built");
+        let name = scene.display().to_string();
+        let input = Input::open(&name, Shaded::Pixels(PixelMethod::FastPhong)).expect("a scene");
+        let port = to_port(&input.frame(&machine).expect("a frame"), &machine).expect("fits");
+        let model = draw_frame(&machine, &port, Waits::Never).expect("is drawn").cycles.expect("a clock");
+        let drawing =
+            Drawing { machine: &machine, port: &port, triangles: port.triangles.len(), cycles: 1 << 20 };
+        let (counted, counters) = drawn(&drawing, &|| ()).expect("is drawn");
+        assert_eq!((counted.cycles(), counters.writes), (model.total, model.counters.writes));
+        assert!(counters.writes > 500, "{}", counters.writes);
+    }
+}
