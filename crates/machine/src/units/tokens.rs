@@ -1,5 +1,9 @@
 //! The fields of the tokens that pass from unit to unit.
 
+mod stored;
+
+pub use stored::*;
+
 use crate::channel::Channel;
 use crate::field::{Field, Scale};
 use crate::machine::{EdgeKind, Fill};
@@ -284,20 +288,6 @@ fn gloss(plan: &Plan) -> Option<Field> {
     plan.shade.normalises().then(|| Field::count("gloss", GLOSS_BITS, doc))
 }
 
-/// A word of the memory of the terms.
-#[must_use]
-pub fn term_address(plan: &Plan) -> Field {
-    let place = plan.record_place_bits();
-    Field::count("addr", plan.shade.record_bits + place, format!("record * 2^{place} + word"))
-}
-
-/// A word of the memory of the tables.
-#[must_use]
-pub fn table_address(plan: &Plan) -> Field {
-    let entry = plan.shade.entry_bits();
-    Field::count("addr", plan.shade.material_bits + entry, format!("material * 2^{entry} + entry"))
-}
-
 fn span_with(plan: &Plan, terms: Vec<Field>) -> Vec<Field> {
     let w = plan.widths();
     let mut fields = vec![
@@ -311,13 +301,6 @@ fn span_with(plan: &Plan, terms: Vec<Field>) -> Vec<Field> {
     fields.extend([Field::count("fresh", 1, "first span of the triangle; increments are new"), fence()]);
     fields.extend(tag(plan));
     fields
-}
-
-/// The address of a pixel, `y·2^xb + x`.
-#[must_use]
-pub fn address(plan: &Plan) -> Field {
-    let w = plan.widths();
-    Field::count("addr", w.address, format!("line * 2^{} + column", w.x))
 }
 
 fn outputs(plan: &Plan) -> impl Iterator<Item = Field> {
@@ -371,23 +354,6 @@ pub fn dithered(plan: &Plan) -> Vec<Field> {
     fields
 }
 
-/// The address of a texel, `ty·2^SB + tx`.
-#[must_use]
-pub fn texel_address(plan: &Plan) -> Field {
-    let side = plan.shadow.side_bits();
-    Field::count("addr", 2 * side, format!("line * 2^{side} + column of the map"))
-}
-
-/// A word of the light's map: a depth, and with `shadow.transmits` a share below it.
-#[must_use]
-pub fn map_word(plan: &Plan) -> Field {
-    if plan.shadow.transmits() {
-        let doc = "{depth of the surface nearest to the light, share of the light in front of it}";
-        return Field::count("texel", plan.map_word_bits(), doc);
-    }
-    Field::count("depth", plan.shadow.depth_bits, "depth of the surface nearest to the light")
-}
-
 /// What PIXEL gives: a fragment, with the outputs of the terms.
 #[must_use]
 pub fn fragment(plan: &Plan) -> Vec<Field> {
@@ -398,16 +364,6 @@ pub fn fragment(plan: &Plan) -> Vec<Field> {
 fn terms(plan: &Plan, count: usize) -> Vec<Field> {
     let output = |term: &Term| Field::signed(term.name, term.bits, "floor of the term");
     plan.terms().iter().take(count).map(output).chain(material(plan)).chain(gloss(plan)).collect()
-}
-
-/// A word of the memory of the textures.
-#[must_use]
-pub fn texture_word(plan: &Plan) -> Field {
-    if plan.shade.bumps() {
-        let doc = "{red, green, blue, slope along u, slope along v}, red in the top bits";
-        return Field::count("texel", plan.texel_word_bits(), doc);
-    }
-    Field::count("rgb", plan.texel_word_bits(), "{red, green, blue}, red in the top bits")
 }
 
 /// What TEXEL gives: the same without u and v, its colours new, with BUMP slopes; without TEXEL what PIXEL gives.
@@ -512,13 +468,6 @@ pub fn write(plan: &Plan) -> Vec<Field> {
     fields
 }
 
-/// The word that comes back from the depth memory.
-#[must_use]
-pub fn depth_word(plan: &Plan) -> Field {
-    let z = Field::output(&plan.channels()[0]);
-    Field { scale: Scale::Unorm, doc: "old depth of the address read".to_owned(), ..z }
-}
-
 /// DEPTH to the depth memory, in a machine with BLEND.
 #[must_use]
 pub fn depth_write(plan: &Plan) -> Vec<Field> {
@@ -542,12 +491,6 @@ pub fn passed(plan: &Plan) -> Vec<Field> {
     fields.push(fence());
     fields.extend(tag(plan));
     fields
-}
-
-/// A word of the colour memory: red, green and blue, red the most significant.
-#[must_use]
-pub fn color_word(plan: &Plan) -> Field {
-    Field::count("rgb", 3 * plan.color.bits, "{red, green, blue}, red in the top bits")
 }
 
 /// BLEND to the colour memory: one pixel.
