@@ -1,13 +1,13 @@
 //! LAMP: the cosines of a light at a point, and how much of it comes.
 //!
 //! ```text
-//!  frag ─> [17 clocks: 3 roots, tables C and A, 13 products] ─> nl, nh, beam ─> normed
+//!  frag ─> there <─> here: 34 clocks for two fragments, 3 roots, tables C and A, 13 products each ─> nl, nh, beam ─> normed
 //!    └─first─> rrd, rdata ─> R, C, A
 //! ```
 //! Formats: l·l in 2^-30, products with l and V in 2^-23, N·N in 2^-16; cosines, attenuation and beam in 2^-16.
 //!
-//! Timing: a fragment taken in cycle n is offered in n + 17; one in 17 clocks. The tables are fetched once, one word a clock, when
-//! the first fragment is there.
+//! Timing: a fragment taken in cycle n is offered in n + 34; two in 34 clocks, in turn. The tables are fetched once, one word a
+//! clock, when the first fragment is there.
 //!
 //! Rules: `docs/machine.md`, section 17. Not modelled: which product is made when; a fragment's cosines are found on its way in.
 
@@ -23,7 +23,7 @@ use crate::word_memory::WordIn;
 use edgewalk_machine::Plan;
 
 /// The step in which a fragment is done.
-const LAST: u32 = 16;
+const LAST: u32 = 17;
 
 /// Where C and A begin among the words.
 const BEAM: usize = 256;
@@ -38,8 +38,17 @@ pub struct Lamp<const C: usize> {
     fetch: Fetch,
     /// v and slope.
     words: Vec<(i64, i64)>,
-    /// The fragment inside, and how many steps are done.
-    inside: Option<Lit<C>>,
+    /// The fragment in the first half of its step.
+    here: Option<Place<C>>,
+    /// The fragment in the second half of its step.
+    there: Option<Place<C>>,
+}
+
+/// A fragment inside.
+#[derive(Clone, Debug)]
+struct Place<const C: usize> {
+    lit: Lit<C>,
+    /// 0 to [`LAST`].
     step: u32,
 }
 
@@ -61,8 +70,8 @@ impl<const C: usize> Lamp<C> {
             have: false,
             fetch: Fetch::of(words),
             words: vec![(0, 0); words as usize],
-            inside: None,
-            step: 0,
+            here: None,
+            there: None,
         }
     }
 
@@ -70,31 +79,31 @@ impl<const C: usize> Lamp<C> {
     pub fn reset(&mut self) {
         self.have = false;
         self.fetch.reset();
-        self.inside = None;
+        (self.here, self.there) = (None, None);
     }
 
     /// A fragment is inside.
     #[must_use]
     pub fn occupied(&self) -> bool {
-        self.inside.is_some()
+        self.here.is_some() || self.there.is_some()
     }
 
-    /// A fragment is inside that is not done.
+    /// Fragments are inside, and none is done.
     #[must_use]
     pub fn working(&self) -> bool {
-        self.occupied() && self.step < LAST
+        self.occupied() && self.normed().is_none()
     }
 
     /// The fragment offered to SHADE, with its cosines.
     #[must_use]
     pub fn normed(&self) -> Option<&Lit<C>> {
-        self.inside.as_ref().filter(|_| self.step == LAST)
+        self.here.as_ref().filter(|place| place.step == LAST).map(|place| &place.lit)
     }
 
     /// A fragment can be taken.
     #[must_use]
     pub fn frag_ready(&self, normed_ready: bool) -> bool {
-        self.have && (!self.occupied() || (self.step == LAST && normed_ready))
+        self.have && (self.here.is_none() || (self.normed().is_some() && normed_ready))
     }
 
     /// A fragment waits for the tables.
@@ -123,17 +132,21 @@ impl<const C: usize> Lamp<C> {
         } else if waits {
             self.fetch.begin();
         }
-        events.lamp.lamp_wait += u64::from(frag.is_some() && self.working());
-        if let Some(given) = frag.filter(|_| ready) {
-            self.inside = Some(Lit { frag: *given.frag, cosines: self.cosines(given.cosines, events) });
-            self.step = 0;
-        } else if self.working() {
-            self.step += 1;
-        } else if normed_ready {
-            self.inside = None;
-        } else {
-            events.lamp.lamp_stall += u64::from(self.occupied());
+        let done = self.normed().is_some();
+        events.lamp.lamp_wait += u64::from(frag.is_some() && self.here.is_some() && !done);
+        if done && !normed_ready {
+            events.lamp.lamp_stall += 1;
+            return;
         }
+        let stays = self.here.take().filter(|_| !done);
+        self.here = self.there.take().map(|place| Place { step: place.step + 1, ..place });
+        self.there = match frag.filter(|_| ready) {
+            Some(given) => {
+                let lit = Lit { frag: *given.frag, cosines: self.cosines(given.cosines, events) };
+                Some(Place { lit, step: 0 })
+            }
+            None => stays,
+        };
     }
 
     fn load(&mut self, tables: &WordIn, events: &mut Events) {

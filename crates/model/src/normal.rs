@@ -1,12 +1,12 @@
 //! NORMAL: divides the products of a fragment's normal by the normal's length.
 //!
 //! ```text
-//!  frag ─> [N1] s ─> [N2] R[s] ─> [N3] slope·low ─> [N4] y = 1/√s ─> [N5] p·y ─> [N6] index ─> normed
+//!  frag ─> [N1] s ─> [N2, N3] R[s] ─> [N4] slope·low ─> [N5] y = 1/√s ─> [N6] p·y ─> [N7] index ─> normed
 //!    └─first─> rrd, rdata ─> R
 //! ```
 //! Formats: products and s in 2^-16, y too; cosines in entries of SHADE's tables.
 //!
-//! Timing: a fragment taken in cycle n is offered in n + 6; one a clock. All stages move together. The table R is fetched
+//! Timing: a fragment taken in cycle n is offered in n + 7; one a clock. All stages move together. The table R is fetched
 //! once, one entry a clock, when the first fragment is there.
 //!
 //! Rules: `docs/machine.md`, section 13. Not modelled: what each stage holds, as R does not change; cosines are found on
@@ -37,7 +37,7 @@ pub struct Normal<const C: usize> {
     fetch: Fetch,
     /// v and slope.
     roots: Vec<(i64, i64)>,
-    /// N1 to N6.
+    /// N1 to N7.
     stages: Stages<Lit<C>>,
 }
 
@@ -52,7 +52,7 @@ impl<const C: usize> Normal<C> {
             have: false,
             fetch: Fetch::of(ENTRIES),
             roots: vec![(0, 0); ENTRIES as usize],
-            stages: Stages::new(6),
+            stages: Stages::new(7),
         }
     }
 

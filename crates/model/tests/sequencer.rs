@@ -1,7 +1,7 @@
 //! The program of a sequenced SETUP, run word by word, against what the closed formulae of section 2 give: lines, edges
 //! and channels of triangles of all kinds, with 1, 2 and 4 lanes.
 
-use crate::common::{Triangle, any_triangle, random_machine};
+use crate::common::{Triangle, any_triangle, random_machine, random_triangle};
 use edgewalk_machine::sequencer::Program;
 use edgewalk_machine::sequencer::word::{Base, Control, Only, Sign, Word};
 use edgewalk_machine::{EdgeKind, Fill, MAX_CHANNELS, Machine, Plan, SetupKind};
@@ -203,4 +203,55 @@ fn altered_words_of_program_are_found() {
     println!("{} of {made} alterations found; not:\n{}", made - survivors.len(), survivors.join("\n"));
     assert!(made > 2000, "{made} alterations");
     assert!(survivors.len() * 4 < made, "{} of {made} are not found", survivors.len());
+}
+
+/// Clocks up to the first round of channels, and from there on, of a triangle that is not culled.
+fn halves(slow: &SlowSetup, front: &SlowSetup, triangle: &Triangle) -> Option<[u32; 2]> {
+    let of = |setup: &SlowSetup| setup.run::<MAX_CHANNELS>(triangle, false).expect("the program ends");
+    let whole = of(slow);
+    let before = of(front).clocks;
+    whole.culled.is_none().then(|| [before, whole.clocks + whole.load - before])
+}
+
+/// What a second sequencer would gain that does front and edges of the next triangle beside the channels of this one: the
+/// longer of both halves in the place of their sum. `docs/synthesis.md` has the figures:
+/// `cargo test --release -p edgewalk-model --test suites -- --ignored overlap_of_front_and_channels --nocapture`
+#[test]
+#[ignore = "a measurement"]
+fn overlap_of_front_and_channels_is_measured() {
+    const COUNT: usize = 6000;
+    for lanes in [1, 2, 4] {
+        let plan = Machine { lanes, ..Machine::default() }.plan().expect("can be built");
+        let slow = SlowSetup::new(&plan);
+        let mut program = Program::of(&plan);
+        let place = |name: &str| program.labels().find(|(label, _)| *label == name).expect("a label").1;
+        let (round, ready) = (place("round"), place("ready"));
+        program.words[usize::from(round)].control = Control::Goto(ready);
+        let front = SlowSetup::with(&plan, program);
+        let mut rng = StdRng::seed_from_u64(lanes.into());
+        for (name, size) in [("small", Some(6.0)), ("of all sizes", None)] {
+            let (mut sums, mut longer, mut drawn) = ([0; 2], 0, 0);
+            for _ in 0..COUNT {
+                let triangle = match size {
+                    Some(size) => random_triangle(&plan, size, &mut rng),
+                    None => any_triangle(&plan, &mut rng),
+                };
+                let Some([before, behind]) = halves(&slow, &front, &triangle) else { continue };
+                sums[0] += u64::from(before);
+                sums[1] += u64::from(behind);
+                longer += u64::from(before.max(behind));
+                drawn += 1;
+            }
+            let mean = |sum: u64| sum as f64 / f64::from(drawn);
+            let both = mean(sums[0] + sums[1]);
+            println!(
+                "{lanes} lanes, {drawn} triangles {name}: {:.0} + {:.0} = {both:.0} clocks, the longer {:.0}, {:.2} times as fast",
+                mean(sums[0]),
+                mean(sums[1]),
+                mean(longer),
+                both / mean(longer)
+            );
+            assert!(drawn > COUNT as u32 / 2 && mean(longer) < both);
+        }
+    }
 }

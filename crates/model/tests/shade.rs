@@ -335,7 +335,7 @@ fn roots_are_as_near_as_the_specification_says() {
 fn shading_costs_no_clock_a_pixel() {
     let mut rng = StdRng::seed_from_u64(9);
     for (kind, colour, stages, roots) in
-        [("fast-phong", "tables", 3, 0), ("fast-phong", "multiply", 5, 0), ("phong", "tables", 9, 259)]
+        [("fast-phong", "tables", 3, 0), ("fast-phong", "multiply", 5, 0), ("phong", "tables", 10, 259)]
     {
         let plan = machine(&[("shade.kind", kind), ("shade.colour", colour), ("shade.table_bits", "8")]);
         let vertex = |x, y| plan.raw_vertex(x, y, &[0; 4]);
@@ -354,4 +354,22 @@ fn shading_costs_no_clock_a_pixel() {
         assert_eq!((term, shade), (15 + 2 + 1, roots + 256 + 2 + 1));
         assert_eq!(counters.spent(Activity::Flush), 1 + stages + 2 + 1);
     }
+}
+
+/// Two fragments in turn take 34 clocks.
+#[test]
+fn a_light_at_a_point_takes_seventeen_clocks_a_pixel() {
+    /// The words of LAMP's tables, a record, the tables of SHADE, and what starts and ends a frame.
+    const BESIDE: u64 = 1024 + 256 + 150;
+    let mut rng = StdRng::seed_from_u64(10);
+    let keys = [("shade.kind", "phong"), ("shade.light", "positional"), ("shade.table_bits", "8")];
+    let plan = machine(&keys);
+    let vertex = |x, y| plan.raw_vertex(x, y, &[0; 4]);
+    let triangle = [vertex(0, 0), vertex(60 * 256, 0), vertex(0, 40 * 256)];
+    let mut shading = random_shading(&plan, &[triangle], &mut rng);
+    (shading.records[0].x, shading.records[0].y) = (0, 0);
+    let (found, frame) = fragments(&plan, &[triangle], &shading, Stalls::NONE);
+    let (clocks, fragments) = (frame.counters.cycles, found.len() as u64);
+    println!("{fragments} fragments in {clocks} clocks");
+    assert!(fragments > 1000 && (17 * fragments..17 * fragments + BESIDE).contains(&clocks), "{clocks}");
 }

@@ -1,11 +1,11 @@
 //! LAMP: finds the cosines of a light at a point, and how much of it comes.
 
-mod steps;
-mod root;
 mod beside;
+mod made;
 mod multiply;
 mod operands;
-mod made;
+mod root;
+mod turns;
 
 use std::sync::Arc;
 
@@ -16,22 +16,23 @@ use edgewalk_netlist::{BuildErrors, Module, Netlist, Signal};
 use crate::ports::Interface;
 use crate::roots::Roots;
 use beside::Beside;
-use made::Made;
+use made::Results;
 use multiply::Multiplier;
 use operands::Operands;
 use root::Root;
-use steps::Steps;
+use turns::{Links, Turns};
 
 const DOC: &str = "LAMP finds the cosines of a light at a point, and the share of its light that arrives.
 
-  frag ─> [kept] ─> root of dd, of nn, of 1 + L.V ─> [k, m] ─> tables ─> [a] * [b] ─> [registers] ─> normed
-                                    roots memory ─ rdata ─┘
+  frag ─> [there] <─> [here] ─> root of dd, of nn, of 1 + L.V ─> [k, m] ─> tables ─> [a] * [b] ─> [results] ─> normed
+                                          roots memory ─ rdata ─┘
 
 Formats: dd is signed, 2^30 for 1.0; pl, dv, da, pv are signed, 2^23 for 1.0; nn and cosines are signed, 2^16 for 1.0.
 Attenuation and beam: 2^16 for 1.0. Tables hold {v, slope}: R 1/sqrt(k/256), C the beam beside the axis, A the attenuation.
 slope is the decrease to the next entry.
-Timing: a step a clock, 17 for a fragment. The product of step s is ready, rounded, in step s + 2.
-  step   0    1    2    3    4    5    6    7    8    9    10   11   12   13   14   15
+Timing: two fragments in turn, a step of each in two clocks: 34 for both. The fragment in here does the first half of
+its step, the fragment in there the second half. The operands of step s are multiplied in step s + 1.
+  step   1    2    3    4    5    6    7    8    9    10   11   12   13   14   15   16
   root   dd                       nn                       LV
   table       R    A                   R         C              R
   a * b       y    att  pl   dv   da   y         cone L    pv   y    beam H    nl
@@ -50,28 +51,25 @@ pub fn lamp(plan: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
     let normed_ready = ports.gives_ready();
     let roots = Roots::new(&m, plan, "tables R, C, A", frag_valid, &memory);
 
-    let steps = Steps::new(&m, &frag, roots.have, &steps::Links { frag_valid, normed_ready });
-    let made = Made::new(&m);
-    let root = Root::of_steps(&m, &steps, made.way.q());
-    let beside = Beside::new(&m, &roots, memory.data["word"], &root, &made);
-    let operands = Operands { m: &m, steps: &steps, made: &made, root: &root, beside: &beside };
-    let word = operands.entry(&roots);
-    let (v, slope) = (word.slice(32, 16), word.slice(15, 0));
-    let [a, b] = operands.factors(slope);
-    let product = Multiplier::new(&m, a, b, v);
-    made.update(&steps, &product, beside.dark);
-    let indices = made.indices(&m, plan, &steps, product.exact);
+    let turns = Turns::new(&m, &frag, roots.have, &Links { frag_valid, normed_ready });
+    let results = Results::new(&m, &turns);
+    let root = Root::new(&m, &turns, &results);
+    let beside = Beside::new(&m, &roots, memory.data["word"], &turns, &results);
+    let operands = Operands { m: &m, turns: &turns, results: &results, root: &root, beside: &beside };
+    let product = Multiplier::new(&m, &turns, &operands.choose(&roots));
+    results.update(&turns, &product, beside.dark);
+    let indices = made::indices(&m, plan, &turns, &product);
 
-    ports.take_ready(steps.frag_ready);
+    ports.take_ready(turns.frag_ready);
     ports.read("roots", roots.read_valid, roots.read_place, roots.loading);
-    ports.give(steps.normed_valid, |f| match indices.iter().find(|(name, _)| name == f) {
+    ports.give(turns.normed_valid, |f| match indices.iter().find(|(name, _)| name == f) {
         Some((_, index)) => *index,
-        None if f == "beam" => made.beam.q(),
-        None => steps.of(f),
+        None if f == "beam" => results.beam.here(),
+        None => turns.of(f),
     });
     ports.status("table_wait", frag_valid & !roots.have);
-    ports.status("working", steps.working);
-    ports.status("occupied", steps.busy);
+    ports.status("working", turns.working);
+    ports.status("occupied", turns.occupied);
     m.finish()
 }
 

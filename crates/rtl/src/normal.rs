@@ -15,17 +15,17 @@ use cosine::{cosine, product};
 
 const DOC: &str = "NORMAL divides the products of a fragment's normal by the normal's length.
 
-  frag ─> [N1: limit N.N] ─> [N2: entry of R] ─> [N3: slope * low] ─> [N4: y, the root]
-       ─> [N5: product * y] ─> [N6: cosine, entry] ─> normed
+  frag ─> [N1: limit N.N] ─> [N2, N3: entry of R] ─> [N4: slope * low] ─> [N5: y, the root]
+       ─> [N6: product * y] ─> [N7: cosine, entry] ─> normed
                  roots memory ─ rdata ─┘
 
 Formats: pl*, ph* and nn are signed, 2^16 for 1.0; nn is limited to [1/4, 1). R holds {v, slope}, 2^-16: v is 1/sqrt(k/256),
 slope the decrease to the next entry. nl* and nh* are signed, in entries of SHADE's tables, saturated at the ends.
-Timing: a fragment a clock, offered six clocks after it was taken. All stages advance together.
+Timing: a fragment a clock, offered seven clocks after it was taken. All stages advance together.
 Rules: R is fetched once after a reset, when the first fragment is offered, a word a clock. No fragment is taken before.";
 
 /// What the stages are called.
-const STAGES: [&str; 6] = ["n1", "n2", "n3", "n4", "n5", "n6"];
+const STAGES: [&str; 7] = ["n1", "n2", "n3", "n4", "n5", "n6", "n7"];
 
 /// The netlist of NORMAL.
 ///
@@ -48,8 +48,8 @@ pub fn normal(plan: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
         frag.parts().into_iter().filter(|part| is_kept(part) || part.name == "gloss").collect();
     let stages = STAGES.map(|name| {
         let kept = match name {
-            "n5" => &with_gloss,
-            "n6" => &without,
+            "n6" => &with_gloss,
+            "n7" => &without,
             _ => &with_products,
         };
         let valid = m.reg(&format!("{name}_valid"), 1).doc("the stage holds a fragment").reset(0);
@@ -58,7 +58,7 @@ pub fn normal(plan: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
     let last = stages[STAGES.len() - 1].valid.q();
     let advance = (!last | normed_ready).named_doc("advance", "all stages advance");
     let occupied = stages.iter().map(|stage| stage.valid.q()).reduce(|any, one| any | one);
-    let occupied = occupied.expect("there are six stages");
+    let occupied = occupied.expect("there are seven stages");
 
     let roots = Roots::new(&m, plan, "table R", frag_valid, &memory);
     let frag_ready = (advance & roots.have).named("frag_ready");
@@ -81,34 +81,38 @@ pub fn normal(plan: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
     let entry = roots.read(advance, n1_s.slice(15, 8));
     let low = moved(&m, advance, "n2_low", "2^-16", n1_s.trunc(8));
 
-    m.comment("N3: correction of the root.");
-    let (v, slope) = (entry.slice(26, 10), entry.slice(9, 0));
-    let n3_v = moved(&m, advance, "n3_v", "root at the entry, 2^-16", v);
-    let less = moved(&m, advance, "n3_less", "2^-24", slope * low);
+    m.comment("N3: the entry, in registers behind the memory.");
+    let n3_v = moved(&m, advance, "n3_v", "root at the entry, 2^-16", entry.slice(26, 10));
+    let slope = moved(&m, advance, "n3_slope", "2^-16", entry.slice(9, 0));
+    let low = moved(&m, advance, "n3_low", "2^-16", low);
 
-    m.comment("N4: the root, 1/sqrt(N.N).");
+    m.comment("N4: correction of the root.");
+    let n4_v = moved(&m, advance, "n4_v", "root at the entry, 2^-16", n3_v);
+    let less = moved(&m, advance, "n4_less", "2^-24", slope * low);
+
+    m.comment("N5: the root, 1/sqrt(N.N).");
     let rounded = (less + m.lit(18, 1 << 7)).slice(17, 8).named_doc("rounded", "2^-16");
-    let y = moved(&m, advance, "n4_y", "1/sqrt(N.N), 2^-16", n3_v - rounded.zext(17));
+    let y = moved(&m, advance, "n5_y", "1/sqrt(N.N), 2^-16", n4_v - rounded.zext(17));
 
-    m.comment("N5: the products with the root, exact.");
-    let (n4, n5) = (stages[3].kept.token(), stages[4].kept.token());
+    m.comment("N6: the products with the root, exact.");
+    let (n5, n6) = (stages[4].kept.token(), stages[5].kept.token());
     let found: Vec<&Part> = cosines.iter().filter(|part| frag.get(&part.name).is_none()).collect();
     let products: Vec<Signal<'_>> = found
         .iter()
         .map(|part| {
             let name = part.name.replacen('n', "p", 1);
-            moved(&m, advance, &format!("n5_{name}"), "times the root, 2^-32", product(n4[name.as_str()], y))
+            moved(&m, advance, &format!("n6_{name}"), "times the root, 2^-32", product(n5[name.as_str()], y))
         })
         .collect();
 
-    m.comment("N6: the cosines, and their entries in SHADE's tables.");
+    m.comment("N7: the cosines, and their entries in SHADE's tables.");
     let cosines: Vec<(String, Signal<'_>)> = found
         .iter()
         .zip(products)
         .map(|(part, product)| {
-            let gloss = part.name.starts_with("nh").then(|| n5["gloss"]);
+            let gloss = part.name.starts_with("nh").then(|| n6["gloss"]);
             let index = cosine(&m, plan, part, product, gloss);
-            (part.name.clone(), moved(&m, advance, &format!("n6_{}", part.name), &part.doc, index))
+            (part.name.clone(), moved(&m, advance, &format!("n7_{}", part.name), &part.doc, index))
         })
         .collect();
 

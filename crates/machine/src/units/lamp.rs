@@ -40,7 +40,7 @@ fn ports(plan: &Plan) -> Ports {
         }],
         status: vec![
             Status::new("table_wait", "the offered fragment waits for the tables"),
-            Status::new("working", "the unit works on a fragment"),
+            Status::new("working", "fragments are inside, and none is offered"),
             Status::new("occupied", "the unit holds a fragment"),
         ],
         ..Ports::default()
@@ -54,6 +54,6 @@ events! {
     lamp_beside = "fragments outside the light's cone" if there;
     lamp_short = "roots of arguments below the tables' range" if there;
     lamp_cut = "numbers cut at the end of their bits" if there;
-    lamp_wait = "cycles in which a fragment waits for the one in the unit" if there;
+    lamp_wait = "cycles in which a fragment waits for those in the unit" if there;
     lamp_stall = "cycles in which a finished fragment waits" if there;
 }

@@ -18,31 +18,50 @@ impl<const C: usize> Lamp<C> {
     ) {
         view.unit(plan, "lamp");
         view.kind("fragment", "fragments", || fragments::fields(plan));
-        let fragment = self.inside.as_ref().map(|lit| &lit.frag);
-        view.triangle(fragment.or(frag.map(|given| given.frag)).map(|fragment| fragment.source.id));
+        let places = [&self.here, &self.there];
+        let fragments = places.map(|place| place.as_ref().map(|place| &place.lit.frag));
+        let shown = fragments.into_iter().flatten().next().or(frag.map(|given| given.frag));
+        view.triangle(shown.map(|fragment| fragment.source.id));
         view.flag("have", "the tables are inside", self.have);
         view.wire(|| "have".to_owned());
         let loading = self.fetch.loading();
         view.flag("loading", "tables are being read", loading);
         view.wire(|| "loading".to_owned());
-        let busy = view.flag("busy", "a fragment is inside", self.occupied());
-        view.wire(|| "busy".to_owned());
-        view.number("step", "steps that are done", 5, if self.occupied() { self.step } else { 0 });
+        let names = ["here", "there"];
+        let busy = [0, 1].map(|i| {
+            let busy =
+                view.flag(&format!("{}_busy", names[i]), "the place holds a fragment", places[i].is_some());
+            view.wire(|| format!("{}_busy", names[i]));
+            view.live(Some(busy));
+            let step = places[i].as_ref().map_or(0, |place| u64::from(place.step));
+            view.number(&format!("{}_step", names[i]), "step of the fragment", 5, step);
+            view.wire(|| format!("{}_step", names[i]));
+            view.live(None);
+            busy
+        });
         view.table("inside", &["fragment"], false);
-        view.row("P");
-        let values = fragment.map(|fragment| fragments::values(plan, fragment.addr, &fragment.values));
-        let shown = fragment.zip(values.as_ref()).map(|(fragment, values)| (fragment.source.id, &values[..]));
-        view.token_cell("a fragment that the light is found for", "fragment", shown);
+        for (name, fragment) in names.iter().zip(fragments) {
+            let values = fragment.map(|fragment| fragments::values(plan, fragment.addr, &fragment.values));
+            let shown = fragment.zip(values.as_ref());
+            view.row(name);
+            let shown = shown.map(|(fragment, values)| (fragment.source.id, &values[..]));
+            view.token_cell("a fragment that the light is found for", "fragment", shown);
+        }
         view.note("the products of a step are not modelled, only their clocks and what they give");
-        view.lane(busy, self.occupied() || loading);
+        view.lane(busy[0], self.occupied() || loading);
 
         let fires = frag.is_some() && self.frag_ready(normed_ready);
         view.says(fires, "takes a fragment.");
         view.says(loading, "reads the tables of the light, once.");
-        view.says(self.working(), "works at pixel {P.addr}: {step} of 16 steps are done.");
+        let [here, there] = places.map(|place| place.as_ref().is_some_and(|place| place.step > 0));
         let done = self.normed().is_some();
-        view.says(done && normed_ready, "gives pixel {P.addr} its cosines, and what is left of the light.");
-        view.says(done && !normed_ready, "stands still: SHADE does not take pixel {P.addr}.");
+        view.says(here && !done, "is in the first half of step {here_step} at pixel {here.addr}.");
+        view.says(there, "is in the second half of step {there_step} at pixel {there.addr}.");
+        view.says(
+            done && normed_ready,
+            "gives pixel {here.addr} its cosines, and what is left of the light.",
+        );
+        view.says(done && !normed_ready, "stands still: SHADE does not take pixel {here.addr}.");
         view.takes("rdata", tables.word.is_some(), loading);
         view.gives("rrd", None, self.read().is_some(), tables.ready);
         view.gives("normed", Some("shade"), done, normed_ready);

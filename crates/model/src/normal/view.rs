@@ -41,7 +41,7 @@ impl<const C: usize> Normal<C> {
         let fires = frag.is_some() && self.frag_ready(normed_ready);
         view.says(fires, "takes a fragment; {held} are on their way.");
         view.says(loading, "reads the table of roots, once.");
-        view.says(self.normed().is_some() && normed_ready, "gives pixel {N6.addr} two cosines a light.");
+        view.says(self.normed().is_some() && normed_ready, "gives pixel {N7.addr} two cosines a light.");
         view.says(!self.advance(normed_ready), "stands still: SHADE takes no fragment.");
         view.takes("rdata", roots.word.is_some(), loading);
         view.gives("rrd", None, self.read().is_some(), roots.ready);

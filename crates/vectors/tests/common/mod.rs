@@ -183,7 +183,7 @@ pub fn twelve() -> Vec<(&'static str, Plan)> {
         (
             "slopes_two_extras",
             with_extras(
-                Machine { edge_kind: EdgeKind::Slope, edge_fraction: 12, lanes: 4, ..s.clone() },
+                Machine { edge_kind: EdgeKind::Slope, edge_fraction: 12, lanes: 4, ..sequenced.clone() },
                 [(Kind::Unorm, 6), (Kind::Signed, 4)],
             ),
         ),
@@ -197,7 +197,7 @@ pub fn twelve() -> Vec<(&'static str, Plan)> {
                 ..textbook.clone()
             },
         ),
-        ("textbook_exact_edges", Machine { lanes: 4, ..textbook.clone() }),
+        ("textbook_exact_edges", Machine { lanes: 4, setup_kind: SetupKind::Sequenced, ..textbook.clone() }),
         (
             "tiny",
             Machine {
