@@ -15,6 +15,7 @@ mod accessor;
 mod pbr;
 mod gltf;
 mod join;
+mod t_joints;
 
 use crate::error::{Fault, InputError};
 use crate::texture::Texture;
@@ -25,6 +26,7 @@ use std::path::Path;
 
 pub use face_data::FaceData;
 pub use material::Material;
+pub use t_joints::TJoint;
 
 pub(crate) use face::triangles;
 pub(crate) use join::Part;
