@@ -1,6 +1,7 @@
 //! Colours along the edges of polygons, `polygon.values` = bilinear.
 
 use crate::support::{edgewalk, ended, rendered_by_every_engine};
+use std::process::Output;
 
 /// A square turned by so many degrees, its four corners red, green, blue and white: no plane holds their colours.
 fn square(degrees: f64) -> String {
@@ -35,6 +36,61 @@ fn a_turned_square_has_goldens_colours() {
             assert!(error <= bound && bound < 0.65, "{degrees}: {error} of {bound}");
         }
     }
+}
+
+fn json(output: &Output) -> serde_json::Value {
+    let error = String::from_utf8_lossy(&output.stderr);
+    serde_json::from_slice(&output.stdout).unwrap_or_else(|_| panic!("{error}"))
+}
+
+/// Two edges of the upright square are columns: on them colours run from corner to corner.
+#[test]
+fn explain_shows_colours_from_edge_to_edge() {
+    let mut checked = 0;
+    for degrees in [0.0, 30.0, 45.0] {
+        let folder = folder(&square(degrees));
+        for (x, y) in [(24, 18), (16, 14), (30, 22), (20, 25)] {
+            let (column, line) = (x.to_string(), y.to_string());
+            let options = ["--machine", "bilinear", "--set", "edge.fraction_bits=20"];
+            let told = |more: &[&str]| {
+                let arguments = [&["explain", "a.tri", &column, &line], &options[..], more].concat();
+                edgewalk(folder.path(), &arguments).output().expect("runs")
+            };
+            let document = json(&told(&["--json"]));
+            let span = &document["poly"][0]["between"];
+            assert_eq!(span["ambiguous"], false, "{document}");
+            for k in 0..3 {
+                let of = |what: &str| span["colours"][k][what].as_f64().expect("a number");
+                let (value, error, bound) = (of("value"), of("error"), of("bound"));
+                assert!(error.abs() <= bound && (0.0001..0.2).contains(&bound), "{error} of {bound}");
+                // The machine stores the value, rounded; golden has it less the error.
+                assert_eq!(document["stored"]["rgb"][k].as_f64(), Some((value + 0.5).floor()), "{document}");
+                let golden = 255.0 * document["rgb"][k].as_f64().expect("a number");
+                assert!((value - error - golden).abs() < 0.1, "{value} {error} {golden}");
+                let first = span["first"].as_f64().expect("a number");
+                let walked = of("start") + (f64::from(x) - first) * of("increment");
+                assert!((walked - value).abs() < 1e-9);
+                if degrees == 0.0 {
+                    // From blue down to green on the left, from white down to red on the right.
+                    let half = 16.0 * 0.5f64.sqrt();
+                    let down = 255.0 * (f64::from(y) + 0.5 - (18.0 - half)) / (2.0 * half);
+                    let [left, right] = [[0.0, down, 255.0 - down], [255.0, 255.0 - down, 255.0 - down]];
+                    assert!(
+                        (of("left") - left[k]).abs() < 0.1 && (of("right") - right[k]).abs() < 0.1,
+                        "{span}"
+                    );
+                }
+                checked += 1;
+            }
+            let text = String::from_utf8(told(&[]).stdout).expect("text");
+            assert!(text.contains("left edge  right edge  first pixel  increment"), "{text}");
+        }
+    }
+    println!("checked {checked} colours");
+    let folder = folder(&square(0.0));
+    let arguments = ["explain", "a.tri", "24", "18", "--machine", "polygon", "--json"];
+    let planes = json(&edgewalk(folder.path(), &arguments).output().expect("runs"));
+    assert!(planes["poly"][0].get("between").is_none(), "{planes}");
 }
 
 #[test]

@@ -84,6 +84,30 @@ fn faces_of_meshes_are_polygons_in_constant_shading() {
     is_goldens(&with_poly);
 }
 
+/// Flat faces of a smooth barrel: their corners have normals of their own, so no plane holds their colours.
+#[test]
+fn smooth_faces_are_polygons_of_bilinear_colours() {
+    let ring = |k: i32, y: f64| {
+        let angle = std::f64::consts::TAU * f64::from(k) / 12.0;
+        format!("v {} {y} {}\n", angle.sin(), angle.cos())
+    };
+    let points: String = (0..12).map(|k| ring(k, -0.8) + &ring(k, 0.8)).collect();
+    let place = |k: i32, up: i32| 2 * (k % 12) + up + 1;
+    let face =
+        |k: i32| format!("f {} {} {} {}\n", place(k, 0), place(k + 1, 0), place(k + 1, 1), place(k, 1));
+    let faces: String = (0..12).map(face).collect();
+    let folder = folder("a.obj", &(points + &faces));
+    let drawn =
+        |machine: &str| report(folder.path(), &["a.obj", "--shading", "gouraud", "--machine", machine]);
+    let (planes, bilinear) = (drawn("polygon"), drawn("bilinear"));
+    // A face away from the light has one colour.
+    let [triangles, polygons] = counts(&planes);
+    assert!(triangles + 2 * polygons == 24 && polygons < 3, "{triangles} {polygons}");
+    assert_eq!(counts(&bilinear), [0, 12]);
+    assert_eq!(planes["fragments"], bilinear["fragments"]);
+    is_goldens(&bilinear);
+}
+
 #[test]
 fn a_face_of_too_many_edges_on_a_line_stays_triangles() {
     let height = |k: i32| if k % 2 == 1 { 1.0 } else { [-0.5, -1.0][usize::from(k % 12 == 0)] };

@@ -66,6 +66,7 @@ mod sweep;
 mod synth;
 mod synth_tools;
 mod targets;
+mod t_joints;
 mod test_run;
 mod texels;
 mod reliefs;

@@ -73,6 +73,32 @@ fn the_lesson_needs_no_scene() {
     );
 }
 
+/// On a machine with POLY the lesson walks the slides' polygon. Its edge table is that of the page.
+#[test]
+fn the_lesson_of_poly_walks_a_polygon() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut checked = 0;
+    for more in [&[][..], &["--set", "edge.kind=slope"], &["--set", "polygon.lines=yes"]] {
+        let command = ["replay", "--lesson", "--machine", "polygon", "--out", "l.html", "-q"];
+        let lesson = replay(folder.path(), &[&command[..], more].concat());
+        let steps = lesson["lesson"].as_array().expect("steps");
+        let titles: Vec<&str> = steps.iter().filter_map(|step| step["title"].as_str()).collect();
+        // Six edges, three steps before the lines, ten lines.
+        assert_eq!(titles.len(), 19, "{titles:?}");
+        assert!(titles.contains(&"Edge 5") && titles.contains(&"Line 10"), "{titles:?}");
+        for part in steps.iter().flat_map(|step| step["parts"].as_array().into_iter().flatten()) {
+            if part["check"].is_object() {
+                assert_eq!(part["check"]["same"], true, "{part}");
+                checked += 1;
+            }
+        }
+        let last = steps.last().expect("steps")["parts"].to_string();
+        assert!(last.contains("pair_left") && last.contains("r.V"), "{last}");
+    }
+    println!("checked {checked} numbers");
+    assert!(checked > 300);
+}
+
 /// What every channel of a fragment is off, one of the user's own too: less than is proved, and not nothing.
 #[test]
 fn each_channel_is_within_its_bound_of_the_truth() {
@@ -201,6 +227,10 @@ fn what_cannot_be_shown_is_refused_in_words() {
         (
             vec!["replay", "--lesson", "--out", "o.html", "--set", "blend.kind=constant"],
             &["--lesson", "blend.kind", "none"],
+        ),
+        (
+            vec!["replay", "--lesson", "--out", "o.html", "--machine", "bilinear"],
+            &["--lesson: polygon.values = bilinear", "permitted: plane"],
         ),
         (vec!["replay", "cleared.tri", "--out", "o.html"], &["cleared before cycle", "--to ", "--from "]),
         (

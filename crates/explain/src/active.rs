@@ -1,5 +1,6 @@
 //! The active edges of POLY on a line: the registers of each, as the machine has them.
 
+use crate::between::{self, Between, between};
 use edgewalk_host::polygon::{is_for_poly, on_port, tokens};
 use edgewalk_machine::{MAX_CHANNELS, Plan, PortVertex};
 use edgewalk_model::Events;
@@ -20,6 +21,9 @@ pub(crate) struct InPoly {
     pairs: Vec<[i32; 2]>,
     /// First column, and first no longer inside, of the pair around the pixel.
     pair: Option<[i32; 2]>,
+    /// With `polygon.values = bilinear`: colours at the pixel, where it lies in the polygon.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    between: Option<Between>,
 }
 
 /// The record of an edge on the line.
@@ -48,9 +52,9 @@ pub(crate) fn in_poly(frame: &Frame, machine: &Plan, (x, y): (u32, u32)) -> Vec<
     for pass in frame.passes() {
         for id in pass.primitives.clone().take_while(|id| *id < primitives.len()) {
             let Primitive::Polygon(polygon) = primitives[id] else { continue };
-            let bands = on_port(id, polygon, frame, &pass.state, machine)
-                .and_then(|contours| tokens(id, &contours, machine))
-                .unwrap_or_default(); // the frame was taken by the port before
+            // The frame was taken by the port before.
+            let contours = on_port(id, polygon, frame, &pass.state, machine).unwrap_or_default();
+            let bands = tokens(id, &contours, machine).unwrap_or_default();
             let mut active: Vec<Active> =
                 bands.iter().flatten().flat_map(|token| edges(machine, token, y)).collect();
             active.sort_by_key(|edge| edge.c); // stable
@@ -58,7 +62,8 @@ pub(crate) fn in_poly(frame: &Frame, machine: &Plan, (x, y): (u32, u32)) -> Vec<
             let pairs: Vec<[i32; 2]> = pairs.filter(|[left, right]| left < right).collect();
             let pair = pairs.iter().copied().find(|[left, right]| (*left..*right).contains(&(x as i32)));
             if !active.is_empty() {
-                found.push(InPoly { id, active, pairs, pair });
+                let between = between(machine, &contours, &bands, (x, y));
+                found.push(InPoly { id, active, pairs, pair, between });
             }
         }
     }
@@ -111,5 +116,6 @@ pub(crate) fn text(of: &InPoly, (x, y): (u32, u32)) -> String {
         Some([left, right]) => _ = writeln!(page, "pixel {x} lies in the pair {left} to {right}"),
         None => _ = writeln!(page, "pixel {x} lies in no pair"),
     }
+    of.between.iter().for_each(|colours| page += &between::text(colours, x));
     page
 }

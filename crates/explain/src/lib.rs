@@ -18,6 +18,7 @@ pub mod accumulators;
 mod additions;
 mod dithered;
 mod edges;
+mod between;
 mod active;
 mod layers;
 mod table_read;

@@ -52,8 +52,10 @@ pub(crate) const WIDTH: u32 = 320;
 pub(crate) const HEIGHT: u32 = 240;
 /// Guard band, pixels: that of the default machine.
 pub(crate) const GUARD: f64 = 8191.0;
-/// Exact, with the sub-pixel bits of the default machine.
-pub(crate) const FILL: Fill = Fill::Exact { subpixel_bits: 8 };
+/// Sub-pixel bits of the default machine.
+pub(crate) const SUBPIXEL_BITS: u32 = 8;
+/// Exact, with these sub-pixel bits.
+pub(crate) const FILL: Fill = Fill::Exact { subpixel_bits: SUBPIXEL_BITS };
 /// LSB of 8 bits in 1.
 pub(crate) const LSB: f64 = 255.0;
 

@@ -24,19 +24,23 @@ mod lights;
 mod systems;
 mod fast_phong;
 mod texture;
+mod gloss;
 mod relief;
 mod lamp;
 mod shadows;
 mod glass;
 mod mach_bands;
 mod components;
+mod flat_faces;
 mod textbook_fill;
 mod vertex_rule;
 mod quantization;
 mod hidden_surfaces;
 mod missed_highlight;
 mod orientation;
+mod polygon_normals;
 mod perspective;
+mod inverse_transform;
 mod t_joint;
 mod silhouette;
 mod averaged_normals;
@@ -47,17 +51,19 @@ pub use exhibit::{Exhibit, Image, View};
 pub type Maker = fn() -> anyhow::Result<Exhibit>;
 
 /// All of them, in the order in which they are shown, by the names of their files.
-pub const EXHIBITS: [(&str, Maker); 23] = [
+pub const EXHIBITS: [(&str, Maker); 27] = [
     ("worked-example", worked_example::worked_example),
     ("polygons", polygons::polygons),
     ("walked-polygons", walked_polygons::walked_polygons),
     ("vertex-rule", || Ok(vertex_rule::vertex_rule())),
     ("textbook-fill", || Ok(textbook_fill::textbook_fill())),
     ("components", components::components),
+    ("flat-faces", flat_faces::flat_faces),
     ("lights", lights::lights),
     ("systems", systems::systems),
     ("fast-phong", fast_phong::fast_phong),
     ("texture", texture::texture),
+    ("gloss", gloss::gloss),
     ("relief", relief::relief),
     ("lamp", lamp::lamp),
     ("shadows", shadows::shadows),
@@ -66,9 +72,11 @@ pub const EXHIBITS: [(&str, Maker); 23] = [
     ("quantization", quantization::quantization),
     ("hidden-surfaces", hidden_surfaces::hidden_surfaces),
     ("missed-highlight", missed_highlight::missed_highlight),
-    ("orientation", || Ok(orientation::orientation())),
+    ("orientation", orientation::orientation),
+    ("polygon-normals", || Ok(polygon_normals::polygon_normals())),
     ("perspective", perspective::perspective),
-    ("t-joint", || Ok(t_joint::t_joint())),
+    ("inverse-transform", inverse_transform::inverse_transform),
+    ("t-joint", t_joint::t_joint),
     ("silhouette", silhouette::silhouette),
     ("averaged-normals", averaged_normals::averaged_normals),
 ];

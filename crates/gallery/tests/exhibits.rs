@@ -112,6 +112,74 @@ fn a_turned_quad_hears_of_other_corners() {
     assert!((figure(&turned, "middle of the square") - 127.5).abs() < 1.0);
     let at_45 = figure(&turned, "at 45");
     assert!(at_45.min(255.0 - at_45) < 3.0, "{at_45}");
+    let of_machine = |of: &str| figure(&turned, &format!("machine: {of}"));
+    assert!((of_machine("middle of the square") - figure(&turned, "middle of the square")).abs() < 1.0);
+    assert!((of_machine("at 45") - at_45).abs() < 1.0 && of_machine("range") > 120.0);
+    let mut pixels = 0;
+    for degrees in [0, 30, 45] {
+        let of = |what: &str| figure(&turned, &format!("machine at {degrees} degrees: {what}"));
+        assert_eq!(of("pixels whose coverage differs"), 0.0);
+        let (error, bound) = (of("largest colour error"), of("proved bound"));
+        assert!(error > 0.1 && error <= bound && bound < 1.0, "{degrees}: {error} of {bound}");
+        // The pictures are what the figures are of.
+        let [golden, machine] =
+            [degrees.to_string(), format!("machine-{degrees}")].map(|name| picture(&turned, &name));
+        for (a, b) in golden.iter().zip(machine) {
+            assert!((0..3).all(|k| 255.0 * (a[k] - b[k]).abs() <= bound), "{degrees}: {a:?} {b:?}");
+            pixels += 1;
+        }
+    }
+    println!("checked {pixels} pixels");
+}
+
+/// Half-way between normals that lean towards each other the normal is straight: k_a I_a + k_d + k_s, beyond 1.
+#[test]
+fn normals_along_edges_depend_on_the_turn() {
+    let turned = exhibit("polygon-normals");
+    let of = |what: &str| figure(&turned, what);
+    // k_d 0.5: 0.05 + 0.5 + 0.45. At 45 degrees N leans by atan 0.5: cos 2 / sqrt 5, mirrored 0.6, 0.6^12 = 0.0022.
+    assert_eq!(of("saddle: middle of the square at 0"), 255.0);
+    let leaning = 255.0 * (0.05 + 0.5 * 2.0 / 5f64.sqrt() + 0.45 * 0.6f64.powi(12));
+    assert!((of("saddle: at 45 degrees") - leaning).abs() < 3.0, "{leaning}");
+    assert!(of("saddle: range") > 100.0 && of("ball: range") < 0.5);
+    assert!(of("saddle, at 0 degrees: largest difference") > 20.0);
+}
+
+#[test]
+fn constant_shading_is_right_from_far_away() {
+    let flat = exhibit("flat-faces");
+    for (who, what) in [
+        ("light", "largest error of constant shading, LSB"),
+        ("viewer", "the truth's range over one face, LSB"),
+    ] {
+        let all = [1, 2, 4, 8, 64].map(|times| figure(&flat, &format!("{who} {times} times as far: {what}")));
+        assert!(all.is_sorted_by(|near, far| near > far), "{who}: {all:?}");
+        assert!(all[0] > 20.0 && all[4] < all[0] / 30.0, "{who}: {all:?}");
+    }
+}
+
+#[test]
+fn a_gloss_is_lost_between_vertices() {
+    let gloss = exhibit("gloss");
+    assert!(
+        figure(&gloss, "pixels that the gloss changes") > 1000.0 && figure(&gloss, "largest change") > 20.0
+    );
+    let mean = |of: &str| figure(&gloss, &format!("{of}: mean error"));
+    assert!(mean("Gouraud") > 4.0 * mean("Phong"), "{} {}", mean("Gouraud"), mean("Phong"));
+}
+
+#[test]
+fn the_inverse_transform_finds_the_place() {
+    let inverse = exhibit("inverse-transform");
+    let of = |way: &str| {
+        ["largest distance", "largest error"].map(|what| figure(&inverse, &format!("{way}: {what}")))
+    };
+    let unrounded = of("inverse transform, a depth that is not rounded");
+    assert!(unrounded[0] < 1e-4 && unrounded[1] < 0.05, "vertices are snapped: {unrounded:?}");
+    let ([place, colour], [near, wrong]) =
+        (of("inverse transform, a depth of 24 bits"), of("place interpolated over the screen"));
+    assert!(place < 1e-3 * near && colour < 0.5 && wrong > 50.0, "{place} {colour} {near} {wrong}");
+    assert!(of("inverse transform, a depth of 16 bits")[0] > 100.0 * place);
 }
 
 #[test]
@@ -153,6 +221,7 @@ fn a_finer_grid_leaves_fewer_gaps_at_a_t_joint() {
     let [fine, middling, coarse] = ["8", "4", "0"].map(gaps);
     assert!(fine < middling && middling < coarse && coarse > 100, "{fine} {middling} {coarse}");
     assert!((figure(&joint, "step of the intensity") - 127.5).abs() < 3.0);
+    assert_eq!(["T-joints of that", "T-joints if"].map(|of| figure(&joint, of)), [1.0, 0.0]);
 }
 
 #[test]

@@ -79,6 +79,12 @@ impl<const C: usize> Poly<C> {
         prim.ends && self.load.over()
     }
 
+    /// The pair that waits for MOVER: its line, the columns of its edges, and their colours, words of b + r bits.
+    #[must_use]
+    pub fn pair(&self) -> Option<(u32, [i32; 2], [[u64; 3]; 2])> {
+        self.pass.pair().map(|pair| (pair.y, pair.columns(), pair.ends.map(|end| end.colours)))
+    }
+
     /// The line offered to SPAN.
     #[inline]
     #[must_use]

@@ -1,11 +1,9 @@
 //! Bilinear colours of POLY against values along the true edges and from edge to edge.
 
 use crate::common::machine;
-use crate::common::polygon::{Contours, KINDS, shape};
+use crate::common::polygon::{Contours, KINDS, loaded, shape};
 use edgewalk_machine::{COLOURS, MAX_CHANNELS, Plan, PortVertex};
 use edgewalk_model::Events;
-use edgewalk_model::poly::Poly;
-use edgewalk_model::setup::Setup;
 use edgewalk_model::tokens::{Line, Words};
 use rand::{Rng, SeedableRng, rngs::StdRng};
 
@@ -34,17 +32,7 @@ struct Crossing {
 
 /// All spans that POLY gives for these tokens, each with the increments that it holds for it.
 fn spans(plan: &Plan, tokens: &[[PortVertex; 3]]) -> Vec<(Line<MAX_CHANNELS>, Words<MAX_CHANNELS>)> {
-    const C: usize = MAX_CHANNELS;
-    let (mut setup, mut poly, mut events) = (Setup::<C>::new(plan), Poly::<C>::new(plan), Events::default());
-    let mut spans = Vec::new();
-    for token in tokens {
-        let Some(prim) = setup.run(token, &mut events) else { continue };
-        while !poly.prim_ready(&prim, false) {
-            poly.step(Some(&prim), false, true, false, &mut events);
-        }
-        poly.step(Some(&prim), false, true, false, &mut events);
-        setup.step(None, true, false, &mut events);
-    }
+    let (mut poly, mut events, mut spans) = (loaded(plan, tokens), Events::default(), Vec::new());
     while poly.walking() {
         let line = poly.line().copied();
         spans.extend(line.map(|line| (line, *poly.gradient())));

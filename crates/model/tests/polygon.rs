@@ -1,6 +1,6 @@
 //! POLY against golden's edge table, against exact planes, and against EDGE.
 
-use crate::common::polygon::{Contours, KINDS, golden, shape, vertices};
+use crate::common::polygon::{Contours, KINDS, golden, loaded, shape, vertices};
 use crate::common::rule::exact_value;
 use crate::common::{ALWAYS, Triangle, any_triangle, fragments, machine, render};
 use edgewalk_machine::{Machine, Plan, PortVertex, Role, Sides, Window};
@@ -232,19 +232,7 @@ fn clocks_a_line(plan: &Plan, contours: &[Contours]) -> f64 {
 
 /// Cycles from the fire of the last token until POLY rests, with a SPAN that takes every line at once.
 fn walk_cycles(plan: &Plan, tokens: &[Triangle]) -> u64 {
-    use edgewalk_model::poly::Poly;
-    use edgewalk_model::setup::Setup;
-    const C: usize = edgewalk_machine::MAX_CHANNELS;
-    let (mut setup, mut poly, mut events) = (Setup::<C>::new(plan), Poly::<C>::new(plan), Events::default());
-    let mut cycles = 0;
-    for token in tokens {
-        let Some(prim) = setup.run(token, &mut events) else { continue };
-        while !poly.prim_ready(&prim, false) {
-            poly.step(Some(&prim), false, true, false, &mut events);
-        }
-        poly.step(Some(&prim), false, true, false, &mut events);
-        setup.step(None, true, false, &mut events);
-    }
+    let (mut poly, mut events, mut cycles) = (loaded(plan, tokens), Events::default(), 0);
     while poly.walking() {
         poly.step(None, false, poly.line().is_some(), false, &mut events);
         cycles += 1;
@@ -335,13 +323,14 @@ fn quads_take_fewer_clocks_than_triangles() {
     let drawn = [frame(&poly, &as_polygons), frame(&poly, &of(&poly)), frame(&edge, &of(&edge))];
     let page = include_str!("../../../docs/polygons.md");
     let names = ["quads by POLY", "triangles by POLY", "triangles by EDGE"];
-    for (name, frame) in names.iter().zip(&drawn) {
+    let rows = names.iter().zip(&drawn).map(|(name, frame)| {
         let [edges, channels] = frame.counters.setup_clocks;
-        let row = format!("| {name} | {} | {} |", grouped(frame.counters.cycles), grouped(edges + channels));
-        println!("{row}");
-        assert!(page.contains(&row), "docs/polygons.md has not: {row}");
         assert_eq!(frame.coverage, drawn[0].coverage, "{name}");
-    }
+        format!("| {name} | {} | {} |", grouped(frame.counters.cycles), grouped(edges + channels))
+    });
+    let rows = rows.collect::<Vec<_>>().join("\n");
+    println!("{rows}");
+    assert!(page.contains(&rows), "docs/polygons.md has not: {rows}");
     assert_eq!(quads.len(), 6000);
     let setup = |k: usize| drawn[k].counters.setup_clocks.iter().sum::<u64>();
     assert!(setup(0) * 10 < setup(2) * 8, "{} {}", setup(0), setup(2));

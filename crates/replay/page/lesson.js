@@ -7,7 +7,7 @@ class Lesson {
     const { doc } = app;
     const tabs = document.getElementById("tabs");
     if (!doc.lesson.length) return;
-    this.tabs = ["Replay", "Lesson: one triangle"].map((name, number) => {
+    this.tabs = ["Replay", "Lesson"].map((name, number) => {
       const tab = make("button", { type: "button", onclick: () => this.show(number === 1) }, name);
       tabs.append(tab);
       return tab;

@@ -1,4 +1,4 @@
-//! The lesson: one triangle walked through every section of `docs/machine.md` with its numbers.
+//! The lesson: one triangle walked through every section of `docs/machine.md` with its numbers, or one polygon through POLY.
 //!
 //! ```text
 //!  lesson.txt ─> blocks ─┐
@@ -12,6 +12,7 @@ mod course;
 pub mod expression;
 pub mod markdown;
 pub mod source;
+pub mod polygon;
 mod teacher;
 mod triangle;
 

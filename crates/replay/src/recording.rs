@@ -108,3 +108,17 @@ pub struct Recording {
     /// What memory held before it: by channel and pixel, row by row; then, where the machine draws it, the map.
     pub before: Vec<Plane>,
 }
+
+impl Recording {
+    /// The cycles in which the token of a link moves.
+    ///
+    /// # Errors
+    /// No link has this name.
+    pub(crate) fn fires(&self, name: &str) -> Result<Vec<u32>, String> {
+        let link = self.view.structure().links.iter().find(|link| link.name == name);
+        let link = link.ok_or_else(|| format!("there is no link {name}"))?;
+        let [valid, ready] = [link.valid, link.ready].map(|id| &self.columns[id]);
+        let all = 0..self.cycles;
+        Ok(all.filter(|cycle| valid.in_cycle(*cycle) & ready.in_cycle(*cycle) == 1).collect())
+    }
+}

@@ -51,7 +51,7 @@ pub use host::Host;
 pub use kind::InputKind;
 pub use light::{Attenuation, Incident, Light};
 pub use light_view::{InMap, LightView};
-pub use mesh::{Face, FaceData, Material, Mesh};
+pub use mesh::{Face, FaceData, Material, Mesh, TJoint};
 pub use normals::{Crease, NormalRule, Weight};
 pub use pass::Pass;
 pub use pixel_shading::{PixelMethod, PixelShading, PixelTriangle, Viewer};

@@ -15,6 +15,7 @@ mod accessor;
 mod pbr;
 mod gltf;
 mod join;
+mod t_joints;
 
 use crate::error::{Fault, InputError};
 use crate::texture::Texture;
@@ -25,6 +26,7 @@ use std::path::Path;
 
 pub use face_data::FaceData;
 pub use material::Material;
+pub use t_joints::TJoint;
 
 pub(crate) use face::triangles;
 pub(crate) use join::Part;
@@ -192,17 +194,21 @@ impl Mesh {
         &self.textures
     }
 
-    /// The material of a face, by its place, at texture coordinates: its texture multiplies k_d and k_a (end
-    /// of chapter 7).
+    /// The material of a face, by its place, at texture coordinates: its texture multiplies k_d and k_a, its gloss
+    /// k_s and n (end of chapter 7).
     pub fn material_at(&self, face: u32, texture: DVec2) -> Material {
         let material = self.materials[self.faces[face as usize].material as usize];
-        let image = material.texture.and_then(|place| self.textures.get(place as usize));
-        match image {
-            None => material,
-            Some(image) => {
-                let color = image.at(texture);
-                Material { diffuse: material.diffuse * color, ambient: material.ambient * color, ..material }
-            }
+        let color = |place: Option<u32>| {
+            let image = place.and_then(|place| self.textures.get(place as usize));
+            image.map_or(DVec3::ONE, |image| image.at(texture))
+        };
+        let (surface, gloss) = (color(material.texture), color(material.gloss));
+        Material {
+            diffuse: material.diffuse * surface,
+            ambient: material.ambient * surface,
+            specular: material.specular * gloss,
+            exponent: material.exponent * gloss.element_sum() / 3.0,
+            ..material
         }
     }
 

@@ -17,7 +17,8 @@ impl Scene {
     /// The frame of a surface of this scene with the equation at each pixel. Highlights are of the form that
     /// N·H gives: for the mirror form that of ch. 7.12. In Phong the viewer is far away, as hardware with
     /// linear products has it. A texture of nearest texels is looked up at each pixel, another colours the
-    /// vertices; a relief of nearest texels turns the normal, another is not seen.
+    /// vertices; a relief of nearest texels turns the normal, another is not seen. Nor is a gloss: hardware has k_s and
+    /// n of a material in tables.
     pub fn pixel_frame(&self, surface: &Surface, method: PixelMethod) -> Frame {
         let Camera { eye, target, .. } = self.camera;
         let viewer = match method {
@@ -101,15 +102,16 @@ impl Scene {
 
 /// The colour c of a material and the material without it: k_d in grey, where k_a and I_e allow it.
 fn in_grey(material: &Material) -> (DVec3, Material) {
+    let plain = Material { texture: None, gloss: None, bump: None, ..*material };
     let brightest = material.diffuse.max_element();
     let color = material.diffuse / brightest;
     let grey = material.ambient.max_element();
     let of_one_color = brightest > 0.0 && (material.ambient - color * grey).abs().max_element() < 1e-12;
     if !of_one_color {
-        return (DVec3::ONE, Material { texture: None, bump: None, ..*material });
+        return (DVec3::ONE, plain);
     }
     let [ambient, diffuse] = [grey, brightest].map(DVec3::splat);
-    (color, Material { ambient, diffuse, texture: None, bump: None, ..*material })
+    (color, Material { ambient, diffuse, ..plain })
 }
 
 #[cfg(test)]

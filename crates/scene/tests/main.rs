@@ -15,5 +15,6 @@ mod placed_objects;
 mod scene_file;
 mod statements;
 mod textures;
+mod t_joints;
 mod texture_lines;
 mod triangle_file;

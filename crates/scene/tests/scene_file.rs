@@ -136,7 +136,7 @@ fn pictures_and_reliefs_come_with_their_materials() {
 /// Each a change of one line of a good file, the line it is found in, and what the message must say.
 #[test]
 fn malformed_files_are_refused_by_line_and_key() {
-    let cases: [(&str, &str, usize, &str); 36] = [
+    let cases: [(&str, &str, usize, &str); 39] = [
         ("ambient = [0.1, 0.2, 0.3]", "ambiant = 0.1", 2, "did you mean `ambient`?"),
         ("ambient = [0.1, 0.2, 0.3]", "ambient = [0.1, 0.2]", 2, "ambient: `[0.1, 0.2]`"),
         ("ambient = [0.1, 0.2, 0.3]", "ambient = -1", 2, "each from 0 to"),
@@ -166,6 +166,9 @@ fn malformed_files_are_refused_by_line_and_key() {
         ("colors = [[1, 1, 1], [0, 0, 0]]", "colors = [[1, 1, 1]]", 27, "two of [r, g, b]"),
         ("checker = 2", "checker = 2\ntexture = \"a.png\"", 26, "one of texture, checker"),
         ("checker = 2", "texture = \"missing.png\"", 0, "missing.png: cannot be read"),
+        ("checker = 2", "gloss_checker = 2\ngloss = \"a.png\"", 26, "one of gloss, gloss_checker"),
+        ("checker = 2", "gloss_checker = 0", 26, "gloss_checker: `0`"),
+        ("checker = 2", "gloss = \"missing.png\"", 0, "missing.png: cannot be read"),
         ("checker = 2", "waves = 0", 26, "waves: `0`"),
         ("checker = 2", "waves = 3\nbump_height = nan", 27, "bump_height: `nan`"),
         ("faces = [[0, 1, 2, 3]]", "faces = [[0, 1, 4]]", 31, "places from 0 to 3"),

@@ -220,6 +220,7 @@ fn scene_key_has_its_own_place() {
         checker = 6
         colors = [[0.1, 0.2, 0.3], [0.4, 0.5, 0.6]]
         bump_height = 0.7
+        gloss_checker = 5
         waves = 9
         [[object]]
         positions = [[1, 2, 3], [4, 2.5, 3.5], [1.5, 7, 5]]
@@ -255,12 +256,15 @@ fn scene_key_has_its_own_place() {
         exponent: 44.0,
         transmission: 0.55,
         texture: Some(0),
-        bump: Some(1),
+        gloss: Some(1),
+        bump: Some(2),
         bump_height: 0.7,
     };
     assert_eq!(material, expected);
     let colors = [DVec3::new(0.1, 0.2, 0.3), DVec3::new(0.4, 0.5, 0.6)];
-    assert_eq!(scene.mesh.textures(), [Texture::Checker { squares: 6, colors }, Texture::Waves { count: 9 }]);
+    let gloss = Texture::Checker { squares: 5, colors: [DVec3::ONE, DVec3::splat(0.25)] };
+    let pictures = [Texture::Checker { squares: 6, colors }, gloss, Texture::Waves { count: 9 }];
+    assert_eq!(scene.mesh.textures(), pictures);
     let places = [(0.1, 0.2), (0.3, 0.4), (0.5, 0.6)].map(|(u, v)| DVec2::new(u, v));
     assert_eq!(scene.mesh.face_data()[0].texture, Some(places));
     let [x, y, z] = [30f64, 40.0, 50.0].map(f64::to_radians);

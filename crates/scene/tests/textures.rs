@@ -106,6 +106,18 @@ fn a_texture_multiplies_diffuse_and_ambient() {
     assert_eq!(beyond.material_at(0, DVec2::ZERO).diffuse, material.diffuse, "no such texture");
 }
 
+#[test]
+fn a_gloss_multiplies_specular_and_exponent() {
+    let matte = Material::matte(DVec3::splat(0.5));
+    let material = Material { gloss: Some(0), specular: DVec3::splat(0.8), exponent: 40.0, ..matte };
+    let colors = [DVec3::ONE, DVec3::new(0.5, 0.25, 0.0)];
+    let mesh = square(material, vec![Texture::Checker { squares: 2, colors }]);
+    let [full, part] = [0.2, 0.7].map(|u| mesh.material_at(0, DVec2::new(u, 0.2)));
+    assert_eq!(full, material);
+    assert_eq!((part.specular, part.exponent), (DVec3::new(0.4, 0.2, 0.0), 10.0));
+    assert_eq!((part.diffuse, part.ambient), (material.diffuse, material.ambient));
+}
+
 /// The normal of z = h B(x, y) is (-h B_x, -h B_y, 1), here with B = (1 + sin 2 pi x sin 2 pi y) / 2.
 #[test]
 fn a_relief_turns_the_normal_as_its_slopes_do() {

@@ -12,6 +12,7 @@ use crate::verdict::Verdict;
 use anyhow::{Context, Result, anyhow};
 use edgewalk_machine::{Plan, PortVertex};
 use edgewalk_model::{DrawState, Stalls, Waits};
+use edgewalk_replay::lesson::polygon::{polygon, polygon_lesson};
 use edgewalk_replay::lesson::{SCREEN, triangle};
 use edgewalk_replay::{Lesson, Recording, Replay, Rules, Truth, Window, lesson, page, record, record_passes};
 use serde_json::json;
@@ -46,7 +47,7 @@ pub struct Args {
     /// Stalls of the memory: none, fixed, random, dram, with parameters as fixed:rd=2; or mixed, late
     #[arg(long, value_name = "KIND", default_value = "none", value_parser = kind)]
     stalls: Waits,
-    /// Walk one triangle through all sections of the specification instead, every number beside its register
+    /// Walk one triangle through all sections of the specification instead, every number beside its register; with POLY one polygon
     #[arg(long, conflicts_with_all = ["input", "shading", "triangles", "from", "to", "cycles", "stalls"])]
     lesson: bool,
     /// The page, .html, or the recording alone, .json
@@ -162,18 +163,25 @@ fn explaining(args: &Args, machine: &MachineArgs, of: usize) -> String {
     words.iter().map(|word| quoted(word)).chain(["{x} {y}".to_owned()]).collect::<Vec<_>>().join(" ")
 }
 
-/// The triangle of the lesson, on its screen.
+/// The triangle of the lesson on its screen, or on a machine with POLY the polygon.
 fn taught(machine: &MachineArgs) -> Result<Shown> {
     let machine = machine.machine(Some(SCREEN))?;
-    let triangle = triangle(&machine).context("--lesson")?;
+    let of_polygon = machine.polygon.is_there();
+    let tokens = match of_polygon {
+        true => polygon(&machine).context("--lesson")?,
+        false => vec![triangle(&machine).context("--lesson")?],
+    };
     let state = DrawState::default();
-    let recording =
-        record(&machine, &[triangle], state, Stalls::NONE, Window::default()).context("--lesson")?;
-    let lesson = lesson(&machine, &triangle, &recording, RED).map_err(|why| anyhow!("--lesson: {why}"))?;
+    let recording = record(&machine, &tokens, state, Stalls::NONE, Window::default()).context("--lesson")?;
+    let lesson = match of_polygon {
+        true => polygon_lesson(&machine, &tokens, &recording, RED),
+        false => lesson(&machine, &tokens[0], &recording, RED),
+    };
+    let lesson = lesson.map_err(|why| anyhow!("--lesson: {why}"))?;
     Ok(Shown {
         machine,
         scene: "lesson".to_owned(),
-        triangles: vec![triangle],
+        triangles: tokens,
         of: 1,
         recording,
         truth: Vec::new(),

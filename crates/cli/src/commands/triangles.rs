@@ -7,13 +7,14 @@ use crate::staging::Staging;
 use crate::verdict::Verdict;
 use crate::{Talk, talk};
 use anyhow::{Context as _, Result};
-use edgewalk_scene::{InputKind, triangle_file};
+use edgewalk_scene::{InputKind, TJoint, triangle_file};
+use serde_json::json;
 use std::path::{Path, PathBuf};
 
 /// Write a scene or a mesh as a triangle file: its triangles on the screen, as the machine takes them.
 ///
 /// Screen and guard band are those of the machine, colours those of --shading. `edgewalk raster`, and every other command
-/// that takes the file, draws the picture of the scene bit by bit.
+/// that takes the file, draws the picture of the scene bit by bit. T-joints of the mesh are counted, and the first is named.
 #[derive(clap::Args)]
 #[command(after_help = "Examples:
   edgewalk triangles teapot.obj --out teapot.tri
@@ -29,7 +30,13 @@ pub struct Args {
 
 /// Runs the command.
 pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
-    let (machine, frame) = args.source.on_its_screen(machine)?;
+    let machine = args.source.machine(machine)?;
+    let (frame, joints) = if args.source.is_triangle_file() {
+        (args.source.frame(&machine)?, Vec::new())
+    } else {
+        let (scene, surface) = args.source.surface(&machine)?;
+        (args.source.frame_of(&scene, &surface, &machine)?.0, scene.mesh.t_joints())
+    };
     let mut text = Vec::new();
     triangle_file::write(&frame, &mut text).with_context(|| args.source.input.clone())?;
     let (triangles, size) = (frame.triangles.len(), (machine.width, machine.height));
@@ -47,9 +54,32 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
         out.publish(&[name])?;
         let at = args.out.display().to_string();
         talk.say(
-            || line("triangles", serde_json::json!({ "file": at, "triangles": triangles, "width": size.0, "height": size.1 })),
-            || format!("{at}: {triangles} triangles{lines} on {} x {} pixels", size.0, size.1),
+            || {
+                let (width, height) = size;
+                let found = json!({
+                    "file": at, "triangles": triangles, "width": width, "height": height, "t_joints": joints.len(),
+                });
+                line("triangles", found)
+            },
+            || {
+                let drawn = format!("{at}: {triangles} triangles{lines} on {} x {} pixels", size.0, size.1);
+                format!("{drawn}{}", told(&joints))
+            },
         )?;
     }
     Verdict::drew(frame.drawn() as u64).or_nothing(&args.source.input, frame.drawn() as u64, size)
+}
+
+/// How many T-joints there are, and where the first is.
+fn told(joints: &[TJoint]) -> String {
+    let place = |[x, y, z]: &[f64; 3]| format!("({x} {y} {z})");
+    let Some(TJoint { vertex, edge: [from, to] }) = joints.first() else { return String::new() };
+    format!(
+        "\nT-joints: {}, the first at {} on the edge from {} to {}; permitted, but shading breaks there and pixels may be \
+         missed or drawn twice: let both faces share the vertex",
+        joints.len(),
+        place(vertex),
+        place(from),
+        place(to)
+    )
 }

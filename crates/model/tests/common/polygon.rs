@@ -1,7 +1,10 @@
 //! Random polygons, and which pixels golden gives them.
 
 use edgewalk_golden::polygon::{EdgeTable, Grid, fragments};
-use edgewalk_machine::{Plan, PortVertex};
+use edgewalk_machine::{MAX_CHANNELS, Plan, PortVertex};
+use edgewalk_model::Events;
+use edgewalk_model::poly::Poly;
+use edgewalk_model::setup::Setup;
 use edgewalk_scene::{Polygon, ShadeMode, Vertex};
 use rand::Rng;
 use std::collections::BTreeSet;
@@ -25,6 +28,20 @@ pub fn golden(plan: &Plan, contours: &Contours) -> BTreeSet<(i64, i64)> {
         assert!(pixels.insert((f.x.into(), f.y.into())), "drawn twice");
     });
     pixels
+}
+
+/// POLY with the last of these tokens taken, from where on it walks.
+pub fn loaded(plan: &Plan, tokens: &[[PortVertex; 3]]) -> Poly<MAX_CHANNELS> {
+    let (mut setup, mut poly, mut events) = (Setup::new(plan), Poly::new(plan), Events::default());
+    for token in tokens {
+        let Some(prim) = setup.run(token, &mut events) else { continue };
+        while !poly.prim_ready(&prim, false) {
+            poly.step(Some(&prim), false, true, false, &mut events);
+        }
+        poly.step(Some(&prim), false, true, false, &mut events);
+        setup.step(None, true, false, &mut events);
+    }
+    poly
 }
 
 /// The contours as vertices whose values lie in a plane, as far as they can.

@@ -145,7 +145,7 @@ impl<'a> Course<'a> {
             self.between(from, to, line);
             self.teacher.set("walked", i128::from(walked));
             self.teacher.set("long", i128::from(edge == EDGES[0]));
-            self.teacher.step("edge", &[("e", edge)], true)?;
+            self.teacher.step("edge", &[("e", edge), ("u", "setup")], true)?;
             for part in ["C", "R", "q", "f", "M"] {
                 let value = self.teacher.value(part);
                 self.teacher.set(&format!("{part}_{edge}"), value);
@@ -217,8 +217,8 @@ impl<'a> Course<'a> {
     }
 
     fn lines(&mut self) -> Result<(), String> {
-        let fires = self.fires("line")?;
-        let spans = self.fires("span")?;
+        let fires = self.recording.fires("line")?;
+        let spans = self.recording.fires("span")?;
         let (mut n1, mut n2) = (self.teacher.value("n1"), self.teacher.value("n2"));
         let mut line = self.teacher.value("jm");
         self.load("major", ["CM", "RM", "qM", "fM", "MM"]);
@@ -368,15 +368,6 @@ impl<'a> Course<'a> {
         self.teacher.set("read", read);
         self.teacher.moments.insert("compared", compared);
         self.teacher.step("memory", &[], true)
-    }
-
-    /// The cycles in which a link's token moves.
-    fn fires(&self, name: &str) -> Result<Vec<u32>, String> {
-        let link = self.structure.links.iter().find(|link| link.name == name);
-        let link = link.ok_or_else(|| format!("there is no link {name}"))?;
-        let (valid, ready) = (&self.recording.columns[link.valid], &self.recording.columns[link.ready]);
-        let all = 0..self.recording.cycles;
-        Ok(all.filter(|cycle| valid.in_cycle(*cycle) & ready.in_cycle(*cycle) == 1).collect())
     }
 
     /// The cycle in which PIXEL has a pixel done.

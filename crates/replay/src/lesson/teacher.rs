@@ -121,8 +121,8 @@ impl<'a> Teacher<'a> {
     }
 
     fn check(&self, held: &Held, value: i128, put: &[(&str, &str)]) -> Result<Check, String> {
-        let register = put_in(&held.register, put);
-        let name = format!("{} {register}", held.unit);
+        let (owner, register) = (put_in(&held.unit, put), put_in(&held.register, put));
+        let name = format!("{owner} {register}");
         let outside = |cycle: u32, found: u64| Check {
             name: name.clone(),
             register: None,
@@ -132,7 +132,7 @@ impl<'a> Teacher<'a> {
             found,
             shown: found.into(),
         };
-        match held.unit.as_str() {
+        match owner.as_str() {
             "cycle" => {
                 let cycle = self.moment(&register)?;
                 return Ok(outside(cycle, cycle.into()));
@@ -141,11 +141,12 @@ impl<'a> Teacher<'a> {
             _ => {}
         }
         let structure = self.recording.view.structure();
-        let id = structure.unit(&held.unit).and_then(|unit| register_of(structure, unit, &register));
+        let id = structure.unit(&owner).and_then(|unit| register_of(structure, unit, &register));
         let id = id.ok_or_else(|| format!("there is no register {name}"))?;
-        let cycle = match (&held.moment, held.unit.as_str()) {
+        let cycle = match (&held.moment, owner.as_str()) {
             (Some(moment), _) => self.moment(moment)?,
             (None, "edge") => self.moment("line")?,
+            (None, "poly") => self.moment("enter")?,
             (None, _) => self.first_live(id)?,
         };
         let raw = self.recording.columns[id].in_cycle(cycle);

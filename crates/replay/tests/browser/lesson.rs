@@ -5,6 +5,7 @@ use crate::chromium::Browser;
 use crate::layout::LAYOUT;
 use edgewalk_machine::Machine;
 use edgewalk_model::{DrawState, Stalls};
+use edgewalk_replay::lesson::polygon::{polygon, polygon_lesson};
 use edgewalk_replay::lesson::{SCREEN, triangle};
 use edgewalk_replay::{Replay, Window, lesson, page, record};
 
@@ -12,8 +13,9 @@ use edgewalk_replay::{Replay, Window, lesson, page, record};
 fn the_lesson_has_its_check_marks() {
     let mut browser = Browser::start();
     let mut checked = 0;
+    let preset = |name: &str| Machine::preset(name).expect("a preset");
     for (name, machine) in
-        [("lesson", Machine::default()), ("textbook", Machine::preset("textbook").expect("a preset"))]
+        [("lesson", Machine::default()), ("textbook", preset("textbook")), ("polygon", preset("polygon"))]
     {
         let html = lesson_page(machine);
         let (_folder, path) = file(&html);
@@ -42,10 +44,17 @@ fn the_lesson_has_its_check_marks() {
 
 pub fn lesson_page(machine: Machine) -> String {
     let plan = Machine { width: SCREEN.0, height: SCREEN.1, ..machine }.plan().expect("can be built");
-    let corners = [triangle(&plan).expect("on the screen")];
+    let corners = match plan.polygon.is_there() {
+        true => polygon(&plan).expect("on the screen"),
+        false => vec![triangle(&plan).expect("on the screen")],
+    };
     let recording =
         record(&plan, &corners, DrawState::default(), Stalls::NONE, Window::default()).expect("recorded");
-    let lesson = lesson(&plan, &corners[0], &recording, 1).expect("it is drawn");
+    let lesson = match plan.polygon.is_there() {
+        true => polygon_lesson(&plan, &corners, &recording, 1),
+        false => lesson(&plan, &corners[0], &recording, 1),
+    };
+    let lesson = lesson.expect("it is drawn");
     let replay = Replay {
         plan: &plan,
         scene: "lesson",

@@ -43,6 +43,7 @@ impl Mesh {
                     let shifted = |place: Option<u32>| place.map(|place| first + place);
                     materials.extend(part.mesh.materials.iter().map(|material| Material {
                         texture: shifted(material.texture),
+                        gloss: shifted(material.gloss),
                         bump: shifted(material.bump),
                         ..*material
                     }));

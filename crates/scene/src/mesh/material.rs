@@ -20,6 +20,8 @@ pub struct Material {
     pub transmission: f64,
     /// Place in the list of textures: the picture that k_d and k_a are multiplied with.
     pub texture: Option<u32>,
+    /// Place in the list of textures: the picture that k_s is multiplied with, and n with the mean of its colours.
+    pub gloss: Option<u32>,
     /// Place in the list of textures: the relief whose slopes turn the normal.
     pub bump: Option<u32>,
     /// Height of white in `bump` above black, units of length.
@@ -40,6 +42,7 @@ impl Material {
             exponent: 1.0,
             transmission: 0.0,
             texture: None,
+            gloss: None,
             bump: None,
             bump_height: 0.0,
         }

@@ -21,6 +21,8 @@ const KEYS: &[&str] = &[
     "texels",
     "checker",
     "colors",
+    "gloss",
+    "gloss_checker",
     "bump",
     "waves",
     "bump_height",
@@ -33,7 +35,7 @@ const PLAIN: usize = 1;
 const NEAREST: usize = 1;
 
 /// Keys of pictures.
-const PICTURES: [&str; 4] = ["texture", "checker", "bump", "waves"];
+const PICTURES: [&str; 5] = ["texture", "checker", "gloss", "bump", "waves"];
 
 /// Largest exponent of a highlight.
 const MAX_EXPONENT: f64 = 1e5;
@@ -65,7 +67,7 @@ impl Materials {
     fn material(&mut self, table: &Table, path: &Path) -> Result<Material, InputError> {
         if texels(table)?.is_some() && !PICTURES.iter().any(|key| table.has(key)) {
             let permitted =
-                "permitted only beside `texture`, `checker`, `bump` or `waves`, a picture of texels";
+                "permitted only beside `texture`, `checker`, `gloss`, `bump` or `waves`, a picture of texels";
             return Err(table.fault("texels", "given", permitted));
         }
         let diffuse = table.color("diffuse", 1.0)?.unwrap_or(Material::DEFAULT.diffuse);
@@ -77,6 +79,7 @@ impl Materials {
             exponent: table.number("exponent", 0.0..=MAX_EXPONENT)?.unwrap_or(1.0),
             transmission: table.number("transmission", 0.0..=1.0)?.unwrap_or(0.0),
             texture: self.texture(table, path)?,
+            gloss: self.gloss(table, path)?,
             bump: self.relief(table, path)?,
             bump_height: table.number("bump_height", -MAX_HEIGHT..=MAX_HEIGHT)?.unwrap_or(0.05),
         };
@@ -109,6 +112,16 @@ impl Materials {
             }
             _ => Err(table.fault("colors", "list", "permitted: two of [r, g, b], each from 0 to 1")),
         }
+    }
+
+    /// A picture of k_s and n, or a built-in chequer of full and a quarter gloss.
+    fn gloss(&mut self, table: &Table, path: &Path) -> Result<Option<u32>, InputError> {
+        if let Some(file) = one_of(table, ["gloss", "gloss_checker"])? {
+            return Ok(Some(self.picture(table, path, file)?));
+        }
+        let Some(squares) = table.number("gloss_checker", 1.0..=65536.0)? else { return Ok(None) };
+        let colors = [DVec3::ONE, DVec3::splat(0.25)];
+        Ok(Some(self.add(Texture::Checker { squares: squares as u32, colors })))
     }
 
     /// A picture of heights, or the built-in waves.
