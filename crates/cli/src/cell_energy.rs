@@ -201,3 +201,43 @@ impl Report {
         t.trim_end().to_owned()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use edgewalk_host::draw::{Drawn, draw_frame};
+    use edgewalk_host::input::{Input, Shaded};
+    use edgewalk_host::port::to_port;
+    use edgewalk_machine::Machine;
+    use edgewalk_model::Waits;
+    use edgewalk_scene::PixelMethod;
+
+    const SQUARE: &str = "[[material]]\nname = \"m\"\ndiffuse = 0.5\nspecular = 0.3\nexponent = 20\n[[object]]\n\
+        positions = [[-1, -1, 0], [1, -1, 0.1], [1, 1, 0], [-1, 1, 0.2]]\nfaces = [[0, 1, 2], [0, 2, 3]]\n\
+        material = \"m\"\n";
+
+    /// The netlist reads the records and tables of the frame: with empty ones it takes other cycles.
+    #[test]
+    fn shaded_frame_takes_the_models_cycles() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let scene = folder.path().join("square.toml");
+        std::fs::write(&scene, SQUARE).expect("a file");
+        let mut machine = Machine::default();
+        for (key, value) in [("screen.width", "64"), ("screen.height", "48"), ("shade.kind", "fast-phong")] {
+            machine.set(key, value).expect("a key");
+        }
+        let machine = machine.plan().expect("can be built");
+        let name = scene.display().to_string();
+        let input = Input::open(&name, Shaded::Pixels(PixelMethod::FastPhong)).expect("a scene");
+        let port = to_port(&input.frame(&machine).expect("a frame"), &machine).expect("fits");
+        let Drawn::Ticked(model, ..) = draw_frame(&machine, &port, Waits::Never).expect("is drawn") else {
+            panic!("machines with SHADE are ticked");
+        };
+        let drawing =
+            Drawing { machine: &machine, port: &port, triangles: port.triangles.len(), cycles: 1 << 20 };
+        let (counted, counters) = drawn(&drawing, &|| ()).expect("is drawn");
+        let model = model.counters;
+        assert_eq!((counted.cycles(), counters.writes), (model.cycles, model.writes));
+        assert!(counters.writes > 500, "{}", counters.writes);
+    }
+}

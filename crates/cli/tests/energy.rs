@@ -107,6 +107,34 @@ fn every_figure_of_energy_follows_from_the_others() {
     let moved = |of: &Value, mhz: f64| number(&of["energy"]["cycle_pj"]) - leakage(of, mhz);
     let (fast, slow) = (moved(&report, 50.0), moved(&slow, 5.0));
     assert!((fast - slow).abs() < 1e-4 * fast, "{fast} and {slow} pJ");
+
+    in_the_table_of_features(folder.path());
+}
+
+/// `compare --energy` tells of each machine what `energy` does at the machine's own clock; the text has its energy a pixel.
+fn in_the_table_of_features(folder: &Path) {
+    let mut alone: Value = serde_json::from_str(&energy(folder, &["--json"])).unwrap();
+    for key in ["format", "version"] {
+        alone.as_object_mut().unwrap().shift_remove(key);
+    }
+    let settings: Vec<&str> = SMALL.iter().copied().filter(|word| *word != "--set").collect();
+    let machine = format!("default,{}", settings.join(","));
+    let flat = format!("{machine}:constant");
+    let words = ["compare", &machine, &flat, "sphere", "--energy", "300", "--cache", "cache"];
+    let told = edgewalk(folder, &[&words[..], &["--json"]].concat()).output().unwrap();
+    assert!(told.status.success(), "{}", String::from_utf8_lossy(&told.stderr));
+    let told: Value = serde_json::from_slice(&told.stdout).unwrap();
+    let of = |place: usize| &told["machines"][place]["inputs"][0]["energy"];
+    assert_eq!(of(0), &alone);
+    // Other colours, other transitions, in the same gates.
+    assert_eq!(of(1)["area_um2"], alone["area_um2"]);
+    assert_ne!(of(1)["energy"]["pixel_pj"], alone["energy"]["pixel_pj"]);
+    let text = edgewalk(folder, &words).output().unwrap();
+    let text = String::from_utf8(text.stdout).unwrap();
+    for place in [0, 1] {
+        let pixel = format!("{:.0}", number(&of(place)["energy"]["pixel_pj"]));
+        assert!(text.contains(&pixel), "{pixel} pJ a pixel is missing in\n{text}");
+    }
 }
 
 #[test]

@@ -413,3 +413,23 @@ fn ranges_tell_three_bits_too_many() {
     // No number needs more bits than it has, whatever the machine.
     assert!(narrow.values().chain(wide.values()).all(|(bits, spare, ..)| (0..*bits).contains(spare)));
 }
+
+/// The page shows what the program prints for the sphere.
+#[test]
+fn the_page_shows_what_is_printed() {
+    let folder = tempfile::tempdir().unwrap();
+    let words = ["render", "sphere", "--stalls", "dram", "--clock", "50", "--display", "60"];
+    let output = edgewalk(folder.path(), &words).output().unwrap();
+    let printed = String::from_utf8(output.stdout).unwrap();
+    let printed: Vec<&str> = printed.lines().collect();
+    let page = include_str!("../../../docs/traffic.md");
+    let blocks = page.split("```\n").skip(1).step_by(2);
+    let shown = |block: &&str| block.starts_with("traffic at") || block.starts_with("    clear");
+    let mut checked = 0;
+    for line in blocks.filter(shown).flat_map(str::lines) {
+        assert!(printed.contains(&line), "`{line}` is not printed");
+        checked += 1;
+    }
+    println!("checked {checked} / 10 lines");
+    assert_eq!(checked, 10);
+}
