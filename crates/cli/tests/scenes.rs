@@ -12,6 +12,7 @@ const DRAWN: &[(&str, &[&str])] = &[
     ("glass.toml", &["--shading", "phong", "--shadows", "ray"]),
     ("glass-and-shadows.toml", &["--shading", "phong", "--shadows", "map"]),
     ("systems.toml", &["--shading", "wireframe"]),
+    ("polyhedron.toml", &["--shading", "constant"]),
     ("mach-bands.toml", &["--shading", "gouraud"]),
     ("fast-phong.toml", &["--shading", "fast-phong", "--fit", "six-point"]),
     ("texture-and-relief.toml", &["--shading", "phong"]),

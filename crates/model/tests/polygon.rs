@@ -302,7 +302,10 @@ fn sheet(plan: &Plan) -> Vec<Vec<PortVertex>> {
 
 /// A number from 1,000 to 999,999 as pages write it.
 fn grouped(number: u64) -> String {
-    format!("{},{:03}", number / 1000, number % 1000)
+    if number < 1000 {
+        return number.to_string();
+    }
+    format!("{},{:03}", grouped(number / 1000), number % 1000)
 }
 
 /// Figures of `docs/polygons.md`: `cargo test --release -p edgewalk-model polygon::quads -- --nocapture`.

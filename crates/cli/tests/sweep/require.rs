@@ -121,7 +121,7 @@ const MALFORMED: [(&str, &str); 27] = [
     ("z_error==1", "position 8: found `==`: permitted: <=, >="),
     ("z_error!=1", "position 8: found `!=`: permitted: <=, >="),
     ("z_error=<1", "position 8: found `=<`: permitted: <=, >="),
-    ("z_eror<=1", "position 1: unknown figure z_eror; permitted: cycles, z_error"),
+    ("z_eror<=1", "position 1: unknown figure z_eror; permitted: cycles, bytes, z_error"),
     ("  lut5<=1", "position 3: unknown figure lut5"),
     ("LUT4<=1", "position 1: unknown figure LUT4"),
     ("est_mhz5>=1", "; nearest: est_mhz"),
