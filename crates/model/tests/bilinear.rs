@@ -5,6 +5,8 @@ use crate::common::polygon::{Contours, KINDS, loaded, shape};
 use edgewalk_machine::{COLOURS, MAX_CHANNELS, Plan, PortVertex};
 use edgewalk_model::Events;
 use edgewalk_model::tokens::{Line, Words};
+use edgewalk_numerics::Steps;
+use edgewalk_numerics::bounds::bilinear_error;
 use rand::{Rng, SeedableRng, rngs::StdRng};
 
 /// What was compared.
@@ -124,8 +126,10 @@ fn compare(plan: &Plan, contours: &Contours, rng: &mut StdRng, met: &mut Met) {
                 let share = ((f64::from(x) + 0.5 - left.x) / width).clamp(0.0, 1.0);
                 let truth = left.colours[k] + share * (right.colours[k] - left.colours[k]);
                 let difference = (right.colours[k] - left.colours[k]).abs();
-                let bound = (f64::from(1 + walked) / 2.0 + 1.0 + steps as f64) / one
-                    + difference * (epsilon(walked) / width).min(1.0);
+                let bound =
+                    bilinear_error(plan.color.fraction, Steps { lines: walked, columns: steps as u32 })
+                        .to_f64()
+                        + difference * (epsilon(walked) / width).min(1.0);
                 let error = (value - truth).abs();
                 met.values += 1;
                 met.beyond += u64::from(error > bound + 1e-9);

@@ -64,3 +64,14 @@ fn a_vertex_beside_an_edge_or_at_its_end_is_none() {
         assert_eq!(mesh(&positions, &[[0, 1, 2], [3, 4, 5]]).t_joints().len(), 0, "{beside}");
     }
 }
+
+/// Two faces share an edge, and the corner of a third touches its middle: between the two there is no crack.
+#[test]
+fn an_edge_of_two_faces_has_none() {
+    let [a, b, c] = [DVec3::ZERO, DVec3::X * 4.0, DVec3::new(1.0, 3.0, 0.0)];
+    let positions =
+        [a, b, c, DVec3::new(1.0, -3.0, 0.0), DVec3::X, DVec3::new(1.0, 0.0, 3.0), DVec3::new(2.0, 0.0, 3.0)];
+    let faces = [[0, 1, 2], [1, 0, 3], [4, 5, 6]];
+    assert_eq!(mesh(&positions, &faces).t_joints().len(), 0);
+    assert_eq!(mesh(&positions, &[faces[0], faces[2]]).t_joints().len(), 1);
+}
