@@ -129,7 +129,7 @@ fn pixels_of_a_scene_see_nearest_texels_and_vertices_other_textures() {
         Scene::parse(Path::new("a.toml"), &text).unwrap_err().to_string()
     };
     let refused = error("", "texels = \"nearest\"");
-    assert!(refused.contains("beside `texture`, `checker`, `bump` or `waves`"), "{refused}");
+    assert!(refused.contains("beside `texture`, `checker`, `gloss`, `bump` or `waves`"), "{refused}");
     let refused = error("checker = 5000", "texels = \"nearest\"");
     assert!(refused.contains("at most 4096"), "{refused}");
 }
