@@ -91,14 +91,7 @@ impl<'m> Load<'m> {
         let lines = chosen(&|side| side.lines).named("lines");
         let parts = parts_of_edge(&prim.parts());
         let part = |name: &str| chosen(&|side| prim[format!("{}_{name}", side.edge).as_str()]);
-        let edge = Token::new(parts, |name| match name {
-            // A step with a carry adds M - f.
-            "m" => {
-                let modulus = part("m");
-                (modulus - part("f").zext(modulus.width())).named_doc("loaded_back", "M - f")
-            }
-            _ => part(name).named(&format!("loaded_{name}")),
-        });
+        let edge = Token::new(parts, |name| part(name).named(&format!("loaded_{name}")));
         let colours = finds.map_or_else(Vec::new, |finds| {
             finds.found.when(takes, 0);
             let field = |name: &str| prim[name];
@@ -114,13 +107,14 @@ impl<'m> Load<'m> {
         });
 
         let closes = prim["ends"];
-        let through = m.reg("through", 1).doc("no side of the prim was left in the clock before").reset(0);
-        let prim_ready = through.q() & !(closes & (walking | fresh_queued));
+        let prim_ready = !putting.q() & !any_left & !(closes & (walking | fresh_queued));
         let prim_ready = prim_ready.named("prim_ready");
         let fires = (prim_valid & prim_ready).named("fires");
         let closes = (fires & closes).named_doc("closes", "the polygon has all its edges");
-        let begins = (closes & edges.q().any() & !over.q() & !prim["void"]).named("begins");
-        through.set(prim_valid & !any_left & !putting.q() & !fires);
+        // Which sides are left is known last.
+        let may_begin = prim_valid & prim["ends"] & !putting.q() & !walking & !fresh_queued;
+        let may_begin = may_begin & edges.q().any() & !over.q() & !prim["void"];
+        let begins = (may_begin.named("may_begin") & !any_left).named("begins");
         let refused = (closes & over.q()).named("refused");
         bank.when(closes, !bank.q());
         did.when(takes, did.q() | turn).when(fires, 0);
