@@ -49,7 +49,7 @@ impl CellEnergy {
     }
 
     /// Draws with the machine's netlist, counts transitions, and computes area, clock and energy at so many MHz, or at the
-    /// fastest clock. `taken` is told of each triangle.
+    /// fastest clock. Each triangle that enters the machine calls `taken`.
     ///
     /// # Errors
     /// A tool is missing, fails or takes too long; a machine that cannot be built.

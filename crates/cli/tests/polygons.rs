@@ -132,7 +132,7 @@ fn what_poly_cannot_draw_names_place_and_remedy() {
     }
 }
 
-/// Each is refused with the line, what was found and what is permitted.
+/// Malformed polygons: the error of each names the line, the value and the permitted values.
 #[test]
 fn malformed_polygons_name_place_and_remedy() {
     let v = "1 1 0.5 1 0 0 0  8 1 0.5 1 0 0 0  8 8 0.5 1 0 0 0";

@@ -68,7 +68,7 @@ pub(crate) fn orientation() -> Result<Exhibit> {
     })
 }
 
-/// Golden's and the machine's picture, and what is measured of them.
+/// Golden's picture, the machine's picture, and the errors between both.
 type Beside = (Vec<[f64; 3]>, Vec<[f64; 3]>, Vec<(String, String)>);
 
 fn beside(degrees: u32, plan: &Plan) -> Result<Beside> {

@@ -95,7 +95,7 @@ struct Case {
     upper: bool,
 }
 
-/// A sum: what is kept, and what is added to it. Sums that are written alike are alike.
+/// A sum: the register that it keeps, and its second operand. Two equal texts are equal sums.
 #[derive(Clone, Copy, PartialEq, Eq)]
 struct Sum {
     /// 0, the same, twice, masked.

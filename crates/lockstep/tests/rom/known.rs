@@ -283,7 +283,7 @@ impl Flow {
             on.number = edge as u32;
         }
         let mut starts = vec![(on, after)];
-        // A flag that is told apart from here on.
+        // From here on the paths of both values of the flag are followed apart.
         for (number, flag) in [code::SIDE, code::UPPER, code::LOWER].into_iter().enumerate() {
             if act == flag {
                 starts = starts

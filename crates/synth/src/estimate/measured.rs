@@ -12,7 +12,7 @@ pub struct Measured {
     pub part: String,
     /// [`Structure::shape`] of what was synthesised.
     pub shape: u64,
-    /// Not fitted to: the estimate's error is told of these.
+    /// The fit leaves this row out; the printed errors are those of such rows.
     pub held_out: bool,
     /// Look-up tables, carry cells, flip-flops and memory blocks by Yosys.
     pub cells: [u64; 4],

@@ -169,7 +169,7 @@ impl Builder<'_> {
         }
     }
 
-    /// A term that is a sum which nobody else reads is replaced by that sum's terms.
+    /// Replaces a term by its own terms, if the term is a sum with no other reader.
     fn merge(&mut self, terms: &mut Vec<Term>, cell: &Cell, width: usize) {
         let mut at = 0;
         'terms: while at < terms.len() {

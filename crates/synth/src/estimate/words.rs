@@ -53,7 +53,7 @@ pub(super) struct StateMachine {
 pub(super) struct Memory {
     pub words: usize,
     pub width: usize,
-    /// All its words, where nobody writes it.
+    /// All words of a memory that has no write port.
     pub rom: Option<Vec<u128>>,
     /// Enable, address, data.
     pub writes: Vec<(Bit, Range<usize>, Range<usize>)>,
