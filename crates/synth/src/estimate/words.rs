@@ -1,5 +1,5 @@
-//! The netlist as cells whose operands are single bits: hierarchy, wires, slices and extensions are gone, and so is what
-//! nobody reads. Equal operators on equal operands are one cell, as Yosys' `opt_merge` makes them.
+//! The netlist as cells whose operands are single bits. Hierarchy, wires, slices, extensions and cells without a reader are
+//! gone. Equal operators on equal operands are one cell, as Yosys' `opt_merge` makes them.
 
 use super::graph::{Quick, QuickMap};
 use edgewalk_netlist::netlist::{Netlist, NodeId, Source};
