@@ -18,12 +18,12 @@ use std::time::Duration;
 pub struct CellEnergy {
     library: Library,
     cache: Cache,
-    /// The folder in which the cache's entries are made goes with it.
+    /// Removed together with this value: the folder in which the cache makes its entries.
     _scratch: Scratch,
     limit: Duration,
 }
 
-/// What a machine was measured with.
+/// A frame of a machine whose energy is measured.
 pub struct Drawing<'d> {
     /// The machine.
     pub machine: &'d Plan,

@@ -16,7 +16,7 @@ pub(crate) struct Between {
     first: i32,
     /// Red, green and blue.
     colours: Vec<Colour>,
-    /// Another edge is so near to an end of the span that the machine may take that one: then the bound does not hold.
+    /// Another edge lies so near to an end of the span that the machine may take it. The bound does not hold then.
     ambiguous: bool,
 }
 
@@ -24,15 +24,19 @@ pub(crate) struct Between {
 #[derive(Serialize)]
 struct Colour {
     name: &'static str,
-    /// On the edges of the span.
+    /// The value on the span's left edge.
     left: f64,
+    /// The value on the span's right edge.
     right: f64,
-    /// At the first pixel, from pixel to pixel, and at the pixel.
+    /// The value at the first pixel of the span.
     start: f64,
+    /// The step from a pixel to the next.
     increment: f64,
+    /// The value at the pixel.
     value: f64,
-    /// From the colour along the true edges, and the most that it may be (bound 20).
+    /// The value less the colour between the true edges.
     error: f64,
+    /// Largest permitted error: bound 20, and what an edge within its own bound can shift.
     bound: f64,
 }
 

@@ -8,7 +8,7 @@ use std::path::Path;
 
 const SCENE: &str = include_str!("../scenes/components.toml");
 
-/// The exponent of the scene, and what stands behind it.
+/// The exponent of the scene, alone and with a gloss.
 const EVEN: &str = "exponent = 20\n";
 const GLOSS: &str = "exponent = 20\ngloss_checker = 8\n";
 

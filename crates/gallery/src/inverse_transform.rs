@@ -19,7 +19,7 @@ const BITS: [Option<u32>; 3] = [Some(16), Some(24), None];
 #[derive(Default)]
 struct Way {
     rgb: Vec<[f64; 3]>,
-    /// At each pixel that of its worst colour, LSB.
+    /// Error of each pixel's worst colour, LSB.
     map: Vec<f64>,
     /// From the true place, in lengths of the world.
     off: f64,

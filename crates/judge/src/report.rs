@@ -150,7 +150,7 @@ impl Report {
         Report { traffic: self.traffic.map(|traffic| traffic.at_clock(mhz)), ..self }
     }
 
-    /// With what clearing and a display of so many pictures a second ask of the memory, at a clock of so many MHz.
+    /// Adds the accesses of clearing and of a display: pictures a second, at a clock in MHz.
     #[must_use]
     pub fn with_display(self, machine: &Plan, waits: Waits, hz: f64, mhz: f64) -> Self {
         let display = || Display::new(machine, waits, hz, mhz);

@@ -21,7 +21,7 @@ pub const MAX_POINTS: u64 = 200_000;
 /// Most seeds of place and route.
 pub const MAX_SEEDS: u32 = 1000;
 
-/// What a round of a search runs.
+/// The machines and inputs that a round of a search runs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub struct Round {
     /// How many inputs the machines are run on, the first of all.

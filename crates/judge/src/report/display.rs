@@ -1,4 +1,4 @@
-//! What a display, and the clearing of the frame, ask of the frame memory beside the machine.
+//! Accesses to the frame memory by a display and by the clearing of the frame.
 
 use edgewalk_machine::Plan;
 use edgewalk_model::{Waits, clocks_alone};

@@ -1,4 +1,4 @@
-//! Which flips of a bit of the program change nothing that a port shows: what they change is made anew before it is read.
+//! Flips of a bit of the program that no port shows: each changed value is made anew before it is read.
 //!
 //! A flip changes the word's effect on some of SETUP's registers and rows. From there every path is followed, with the set
 //! of what may differ from the right run. The flip counts if such a thing decides the next word or leaves with a prim.

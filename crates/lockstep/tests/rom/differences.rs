@@ -1,4 +1,4 @@
-//! What a flipped word does differently from the right one.
+//! Differences between a flipped word and the right word.
 
 use super::known::{At, Flow, Known, code};
 use super::thing::{Differing, Thing, Thing::*};
@@ -225,7 +225,7 @@ impl Jump {
     }
 }
 
-/// What else the words do.
+/// The other acts of a word.
 fn acts_alike(
     flow: &Flow,
     at: At,

@@ -71,7 +71,7 @@ pub struct At {
     pub right: Option<bool>,
 }
 
-/// What is known there.
+/// The values known at this place.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Known {
     pub a: Range,
@@ -259,12 +259,12 @@ impl Flow {
         &self.words[at.place as usize]
     }
 
-    /// What may follow a word.
+    /// The words that may follow a word.
     pub fn next(&self, at: At) -> &[At] {
         &self.next[&at]
     }
 
-    /// What may follow a word, and what is known then.
+    /// The words that may follow a word, each with the values known there.
     fn steps(&self, at: At, known: &Known) -> Vec<(At, Known)> {
         let word = &self.words[at.place as usize];
         let mut after = known.clone();
@@ -360,7 +360,7 @@ impl Flow {
         }
     }
 
-    /// The step, and what is written.
+    /// The step and the values that it writes.
     fn step(&self, at: At, known: &Known, after: &mut Known) {
         let word = &self.words[at.place as usize];
         after.skips = !known.settled;

@@ -1,8 +1,8 @@
-//! What may differ from the right run.
+//! Values that may differ from the right run.
 
 use std::collections::BTreeMap;
 
-/// What may differ.
+/// A value that may differ.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Thing {
     A,

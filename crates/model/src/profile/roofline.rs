@@ -166,7 +166,7 @@ impl Windows {
         }
     }
 
-    /// What came since the last read belongs to it.
+    /// Books PIXEL's own cycles and the memory's clocks since the last read to that read.
     fn settle(&mut self) {
         let clocks = self.services.each_ref().map(Service::clocks);
         let spent = clocks

@@ -1,5 +1,5 @@
 //! The lesson of POLY: one polygon through LOAD, PASS and MOVER. What comes when follows from the corners, by section 19 of
-//! `docs/machine.md`; the recording says what the registers held.
+//! `docs/machine.md`; the recording has the values of the registers.
 
 use super::Lesson;
 use super::teacher::{Teacher, register_of};

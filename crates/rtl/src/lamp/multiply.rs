@@ -29,7 +29,7 @@ pub(super) struct Multiplier<'m> {
 }
 
 impl<'m> Multiplier<'m> {
-    /// The product of what the second half of a step chose.
+    /// The product of the operands chosen in the second half of a step.
     pub fn new(m: &'m Module, turns: &Turns<'m>, chosen: &Chosen<'m>) -> Multiplier<'m> {
         m.comment("Multiplier: two partial products in the first half of a step, their sum in the second.");
         let a = turns.between("a", "operand of the multiplier, signed", chosen.a);

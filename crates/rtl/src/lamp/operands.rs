@@ -58,7 +58,7 @@ impl<'m> Operands<'_, 'm> {
         Chosen { a, b: factor, v }
     }
 
-    /// What is divided by the root, 2^-23; or a factor as it is, 2^-16.
+    /// The dividend of the root, 2^-23; or a factor, 2^-16.
     fn number(&self) -> Signal<'m> {
         let Operands { turns, results, .. } = *self;
         let both = results.diffuse.here().sext(19) + results.viewed.here().sext(19);
@@ -75,7 +75,7 @@ impl<'m> Operands<'_, 'm> {
         numbers.into_iter().rev().fold(both, |other, (step, number)| self.first(step).mux(number, other))
     }
 
-    /// What the number, or a slope if `looks`, is multiplied by.
+    /// The second factor of the number, or of a slope if `looks`.
     fn factor(&self, looks: Signal<'m>, low: Signal<'m>) -> Signal<'m> {
         let results = self.results;
         let others = self.first(15).mux(results.beam.here(), results.y.here());

@@ -1,4 +1,4 @@
-//! The two places of LAMP: which step each fragment is in, and what it brought.
+//! The two places of LAMP, each with the step and the fields of its fragment.
 
 use edgewalk_netlist::{Module, Reg, Signal};
 
@@ -67,7 +67,7 @@ impl<'m> Turns<'m> {
         self.there_step.q().eq(step)
     }
 
-    /// What the fragment in `here` brought under that name.
+    /// The field of that name of the fragment in `here`.
     pub fn of(&self, name: &str) -> Signal<'m> {
         self.here[name].q()
     }
