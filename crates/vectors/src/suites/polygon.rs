@@ -117,10 +117,11 @@ pub(super) fn corners(machine: &Plan) -> Vec<Case> {
             of(&columns.into_iter().chain([back]).collect::<Vec<_>>())
         }),
         case("a_long_way_down", of(&[square(1.0, 1.0, 2.0), square(6.0, h - 3.0, 2.0)])),
-        // Without lines a triangle.
+        // Without lines a triangle. With them a thin polygon, of two edges on most lines.
         case("a_line_behind_edges", {
             let line = machine.line([triangle[0], triangle[2]]);
-            [as_role(low, Role::Edges(Sides::ALL)), machine.with_window(line, Window::default())]
+            let tall = pen.shaded([(1.0, 1.0), (4.0, 1.5), (2.0, h)], [0.3; 3]);
+            [as_role(tall, Role::Edges(Sides::ALL)), machine.with_window(line, Window::default())]
         }),
         case("sides_that_do_not_count", {
             let some = |sides| Role::Edges(Sides::new(sides));
