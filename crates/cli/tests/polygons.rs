@@ -137,7 +137,7 @@ fn what_poly_cannot_draw_names_place_and_remedy() {
 fn built_in_scenes_have_the_same_coverage() {
     let folder = tempfile::tempdir().expect("a folder");
     let coverage = |file: &str, edges: &str| {
-        let arguments = ["raster", file, "--out", "o", "--set", edges];
+        let arguments = ["raster", file, "--engine", "fast", "--out", "o", "--set", edges];
         let (code, error) = ended(&edgewalk(folder.path(), &arguments).output().expect("runs"));
         assert_eq!(code, Some(0), "{file}: {error}");
         npy(&folder.path().join("o/coverage.npy")).2
@@ -148,7 +148,10 @@ fn built_in_scenes_have_the_same_coverage() {
         let arguments = ["triangles", scene, "--out", &file];
         assert_eq!(ended(&edgewalk(folder.path(), &arguments).output().expect("runs")).0, Some(0));
         let by_edge = coverage(&file, "polygon.edges=0");
-        assert_eq!(coverage(&file, "polygon.edges=8"), by_edge, "{scene}");
+        assert!(
+            coverage(&file, "polygon.edges=8") == by_edge,
+            "{scene}: a pixel has other triangles by POLY"
+        );
         covered += by_edge.chunks(4).filter(|count| **count != [0; 4]).count();
     }
     println!("5 scenes, {covered} pixels with the same triangles over them");
