@@ -5,13 +5,13 @@
 //
 //   prim ─> LOAD ─> [edge table] ──────> PASS ─pair─> MOVER ─> line
 //             └──> [order list] ───────> │ ^            └────> inc, held for PIXEL
-//                  [active list of y] ─> B C D ─> [active list of y + 1]
+//                  [active list of y] ─> B C D E ─> [active list of y + 1]
 //
 // LOAD writes the edges of a polygon to one half of the table, and their numbers to the order list, by their first lines.
 // PASS goes through the active list of a line: each pair of columns is a span, each edge steps to the next line and goes
 // into its list, by its column. MOVER takes the values along, by d0 from line to line, by g from column to column.
 //
-// Timing: a line of n edges takes n + 2 clocks, an edge that enters 1 more, one that goes before m others m + 1 more.
+// Timing: a line of n edges takes n + 2 clocks, an edge that enters 1 more, one that goes before m others m + 2 more.
 // MOVER takes a clock a line down, one for each bit of the number of columns, and one more.
 // Rules: a step takes f from R; where R is too small M is added back and the column goes one further (carry).
 // R - f is what is kept, so that its sign says whether the step carries.
@@ -132,77 +132,124 @@ module edgewalk_poly (
 
   // Colours along an edge: pairs, whole and rest, of the modulus M, its height. First the difference of its ends over M, a digit a clock.
   reg [6:0] seek_at;                 // clocks of the search so far
-  wire seek_begins = seek_at == 7'd0;
-  wire pair_stored = seek_at == 7'd13;
-  wire value_found = seek_at == 7'd46;
-  wire step_found = seek_at == 7'd65;
-  wire sums_down = (seek_at >= 7'd14) && (seek_at < 7'd36);
+  wire seek_reads = seek_at == 7'd0;
+  wire seek_begins = seek_at == 7'd1;
+  wire pair_stored = seek_at == 7'd14;
+  wire value_found = seek_at == 7'd47;
+  wire whole_begins = seek_at == 7'd2;
+  wire whole_stored = seek_at == 7'd15;
+  wire whole_of_value = seek_at == 7'd48;
+  wire step_found = seek_at == 7'd67;
+  wire reads_edge = seeks && seek_reads;
+  reg [21:0] height;                 // of the edge
+  wire sums_down = (seek_at >= 7'd15) && (seek_at < 7'd37);
+  reg [21:0] down_way;               // from the upper end to the first line
   reg [21:0] down_digits;            // digits of the lines down that are left, the highest first
   wire adds_pair = sums_down && down_digits[21];
-  wire takes_digits = seek_at < 7'd13;
+  reg adds_whole;                    // the pair's whole part is added
+  wire takes_digits = seek_at < 7'd14;
   wire [11:0] r_upper = of_major ? prim_r_at0 : minor1_left ? prim_r_at0 : prim_r_at1;
   wire [11:0] r_lower = of_major ? prim_r_at2 : minor1_left ? prim_r_at1 : prim_r_at2;
-  wire [12:0] r_rise = {1'b0, r_lower} - {1'b0, r_upper};
+  reg [11:0] r_from;                 // at the upper end
+  reg [11:0] r_to;                   // at the lower end
+  wire [12:0] r_rise = {1'b0, r_to} - {1'b0, r_from};
   reg [11:0] r_digits;               // digits of the difference that are left
   reg [21:0] r_whole;                // whole part of the pair, 2^-r LSB at last
   reg [21:0] r_rest;                 // what is left over, in 1/M
   reg [21:0] r_pair_whole;           // the difference over M: whole part
   reg [21:0] r_pair_rest;            // what is left over
+  wire [24:0] shifted = {3'd0, r_rest} << 1;
   wire [21:0] either = {21'd0, takes_digits && r_digits[11]} | (r_pair_rest & {22{adds_pair}});
-  wire [24:0] r_doubled = ({3'd0, r_rest} << 1) + {3'd0, either};
-  wire [24:0] r_less_one = r_doubled - {3'd0, edge_height};
-  wire [24:0] r_less_two = r_doubled - ({3'd0, edge_height} << 1);
-  wire inverse = !r_less_one[24];
-  wire [21:0] r_rounded = r_whole + {21'd0, inverse};
-  wire [21:0] r_first = r_rounded + ({10'd0, r_upper} << 10) + 22'd8192;
+  wire [24:0] extended = {3'd0, either};
+  wire [24:0] r_doubled = shifted + extended;
+  wire [24:0] inverse = ~{3'd0, height};
+  wire [24:0] r_less_one_digits = shifted ^ extended ^ inverse;
+  wire [24:0] r_less_one_carries = (shifted & extended) | (shifted & inverse) | (extended & inverse);
+  wire [24:0] r_less_one = r_less_one_digits + {r_less_one_carries[23:0], 1'b1};
+  wire [24:0] inverse_2 = ~({3'd0, height} << 1);
+  wire [24:0] r_less_two_digits = shifted ^ extended ^ inverse_2;
+  wire [24:0] r_less_two_carries = (shifted & extended)
+                                 | (shifted & inverse_2)
+                                 | (extended & inverse_2);
+  wire [24:0] r_less_two = r_less_two_digits + {r_less_two_carries[23:0], 1'b1};
+  reg r_one;                         // M was in the rest
+  reg r_two;                         // 2 M were in it
+  wire [21:0] r_base = ({10'd0, r_from} << 10) + 22'd8192;
+  wire [22:0] r_first = {r_whole, 1'b1} + {r_base, r_one};  // and a carry out of the lowest bit
   reg [21:0] r_edge_value;           // on the edge's first line, 2^-r LSB
+  wire [21:0] r_rounded = r_whole + {21'd0, r_one};
   reg [21:0] r_edge_step;            // to the next line
   wire [11:0] g_upper = of_major ? prim_g_at0 : minor1_left ? prim_g_at0 : prim_g_at1;
   wire [11:0] g_lower = of_major ? prim_g_at2 : minor1_left ? prim_g_at1 : prim_g_at2;
-  wire [12:0] g_rise = {1'b0, g_lower} - {1'b0, g_upper};
+  reg [11:0] g_from;                 // at the upper end
+  reg [11:0] g_to;                   // at the lower end
+  wire [12:0] g_rise = {1'b0, g_to} - {1'b0, g_from};
   reg [11:0] g_digits;               // digits of the difference that are left
   reg [21:0] g_whole;                // whole part of the pair, 2^-r LSB at last
   reg [21:0] g_rest;                 // what is left over, in 1/M
   reg [21:0] g_pair_whole;           // the difference over M: whole part
   reg [21:0] g_pair_rest;            // what is left over
+  wire [24:0] shifted_2 = {3'd0, g_rest} << 1;
   wire [21:0] either_2 = {21'd0, takes_digits && g_digits[11]} | (g_pair_rest & {22{adds_pair}});
-  wire [24:0] g_doubled = ({3'd0, g_rest} << 1) + {3'd0, either_2};
-  wire [24:0] g_less_one = g_doubled - {3'd0, edge_height};
-  wire [24:0] g_less_two = g_doubled - ({3'd0, edge_height} << 1);
-  wire inverse_2 = !g_less_one[24];
-  wire [21:0] g_rounded = g_whole + {21'd0, inverse_2};
-  wire [21:0] g_first = g_rounded + ({10'd0, g_upper} << 10) + 22'd8192;
+  wire [24:0] extended_2 = {3'd0, either_2};
+  wire [24:0] g_doubled = shifted_2 + extended_2;
+  wire [24:0] inverse_3 = ~{3'd0, height};
+  wire [24:0] g_less_one_digits = shifted_2 ^ extended_2 ^ inverse_3;
+  wire [24:0] g_less_one_carries = (shifted_2 & extended_2)
+                                 | (shifted_2 & inverse_3)
+                                 | (extended_2 & inverse_3);
+  wire [24:0] g_less_one = g_less_one_digits + {g_less_one_carries[23:0], 1'b1};
+  wire [24:0] inverse_4 = ~({3'd0, height} << 1);
+  wire [24:0] g_less_two_digits = shifted_2 ^ extended_2 ^ inverse_4;
+  wire [24:0] g_less_two_carries = (shifted_2 & extended_2)
+                                 | (shifted_2 & inverse_4)
+                                 | (extended_2 & inverse_4);
+  wire [24:0] g_less_two = g_less_two_digits + {g_less_two_carries[23:0], 1'b1};
+  reg g_one;                         // M was in the rest
+  reg g_two;                         // 2 M were in it
+  wire [21:0] g_base = ({10'd0, g_from} << 10) + 22'd8192;
+  wire [22:0] g_first = {g_whole, 1'b1} + {g_base, g_one};  // and a carry out of the lowest bit
   reg [21:0] g_edge_value;           // on the edge's first line, 2^-r LSB
+  wire [21:0] g_rounded = g_whole + {21'd0, g_one};
   reg [21:0] g_edge_step;            // to the next line
   wire [11:0] b_upper = of_major ? prim_b_at0 : minor1_left ? prim_b_at0 : prim_b_at1;
   wire [11:0] b_lower = of_major ? prim_b_at2 : minor1_left ? prim_b_at1 : prim_b_at2;
-  wire [12:0] b_rise = {1'b0, b_lower} - {1'b0, b_upper};
+  reg [11:0] b_from;                 // at the upper end
+  reg [11:0] b_to;                   // at the lower end
+  wire [12:0] b_rise = {1'b0, b_to} - {1'b0, b_from};
   reg [11:0] b_digits;               // digits of the difference that are left
   reg [21:0] b_whole;                // whole part of the pair, 2^-r LSB at last
   reg [21:0] b_rest;                 // what is left over, in 1/M
   reg [21:0] b_pair_whole;           // the difference over M: whole part
   reg [21:0] b_pair_rest;            // what is left over
+  wire [24:0] shifted_3 = {3'd0, b_rest} << 1;
   wire [21:0] either_3 = {21'd0, takes_digits && b_digits[11]} | (b_pair_rest & {22{adds_pair}});
-  wire [24:0] b_doubled = ({3'd0, b_rest} << 1) + {3'd0, either_3};
-  wire [24:0] b_less_one = b_doubled - {3'd0, edge_height};
-  wire [24:0] b_less_two = b_doubled - ({3'd0, edge_height} << 1);
-  wire inverse_3 = !b_less_one[24];
-  wire [21:0] b_rounded = b_whole + {21'd0, inverse_3};
-  wire [21:0] b_first = b_rounded + ({10'd0, b_upper} << 10) + 22'd8192;
+  wire [24:0] extended_3 = {3'd0, either_3};
+  wire [24:0] b_doubled = shifted_3 + extended_3;
+  wire [24:0] inverse_5 = ~{3'd0, height};
+  wire [24:0] b_less_one_digits = shifted_3 ^ extended_3 ^ inverse_5;
+  wire [24:0] b_less_one_carries = (shifted_3 & extended_3)
+                                 | (shifted_3 & inverse_5)
+                                 | (extended_3 & inverse_5);
+  wire [24:0] b_less_one = b_less_one_digits + {b_less_one_carries[23:0], 1'b1};
+  wire [24:0] inverse_6 = ~({3'd0, height} << 1);
+  wire [24:0] b_less_two_digits = shifted_3 ^ extended_3 ^ inverse_6;
+  wire [24:0] b_less_two_carries = (shifted_3 & extended_3)
+                                 | (shifted_3 & inverse_6)
+                                 | (extended_3 & inverse_6);
+  wire [24:0] b_less_two = b_less_two_digits + {b_less_two_carries[23:0], 1'b1};
+  reg b_one;                         // M was in the rest
+  reg b_two;                         // 2 M were in it
+  wire [21:0] b_base = ({10'd0, b_from} << 10) + 22'd8192;
+  wire [22:0] b_first = {b_whole, 1'b1} + {b_base, b_one};  // and a carry out of the lowest bit
   reg [21:0] b_edge_value;           // on the edge's first line, 2^-r LSB
+  wire [21:0] b_rounded = b_whole + {21'd0, b_one};
   reg [21:0] b_edge_step;            // to the next line
-  assign prim_ready = !putting && !any_left && !(prim_ends && (walking || fresh_queued));
+  reg through;                       // no side of the prim was left in the clock before
+  assign prim_ready = through && !(prim_ends && (walking || fresh_queued));
   wire fires = prim_valid && prim_ready;
   wire closes = fires && prim_ends;  // the polygon has all its edges
-  wire may_begin = prim_valid
-                && prim_ends
-                && !putting
-                && !walking
-                && !fresh_queued
-                && (|edges)
-                && !over
-                && !prim_void;
-  wire begins = may_begin && !any_left;
+  wire begins = closes && (|edges) && !over && !prim_void;
   assign refused = closes && over;
   wire stores = takes && !edges[6];
   wire [6:0] load_place = {bank, edges[5:0]};
@@ -242,49 +289,72 @@ module edgewalk_poly (
     end
   end
 
-  wire inverse_4 = !r_less_two[24];
+  always @(posedge clk) begin
+    if (reads_edge) begin
+      height <= edge_height;
+      down_way <= edge_down;
+      r_from <= r_upper;
+      r_to <= r_lower;
+      g_from <= g_upper;
+      g_to <= g_lower;
+      b_from <= b_upper;
+      b_to <= b_lower;
+    end
+  end
+
+  wire inverse_7 = !r_less_one[24];
+  wire inverse_8 = !r_less_two[24];
   wire [21:0] sum = (r_whole << 1)
-                  + (r_pair_whole & {22{adds_pair}})
-                  + {20'd0, {inverse_4, inverse && !inverse_4}};
-  wire [24:0] choice = inverse_4 ? r_less_two : inverse ? r_less_one : r_doubled;
-  wire inverse_5 = !g_less_two[24];
+                  + (r_pair_whole & {22{adds_whole}})
+                  + {20'd0, {r_two, r_one && !r_two}};
+  wire [24:0] choice = inverse_8 ? r_less_two : inverse_7 ? r_less_one : r_doubled;
+  wire inverse_9 = !g_less_one[24];
+  wire inverse_10 = !g_less_two[24];
   wire [21:0] sum_2 = (g_whole << 1)
-                    + (g_pair_whole & {22{adds_pair}})
-                    + {20'd0, {inverse_5, inverse_2 && !inverse_5}};
-  wire [24:0] choice_2 = inverse_5 ? g_less_two : inverse_2 ? g_less_one : g_doubled;
-  wire inverse_6 = !b_less_two[24];
+                    + (g_pair_whole & {22{adds_whole}})
+                    + {20'd0, {g_two, g_one && !g_two}};
+  wire [24:0] choice_2 = inverse_10 ? g_less_two : inverse_9 ? g_less_one : g_doubled;
+  wire inverse_11 = !b_less_one[24];
+  wire inverse_12 = !b_less_two[24];
   wire [21:0] sum_3 = (b_whole << 1)
-                    + (b_pair_whole & {22{adds_pair}})
-                    + {20'd0, {inverse_6, inverse_3 && !inverse_6}};
-  wire [24:0] choice_3 = inverse_6 ? b_less_two : inverse_3 ? b_less_one : b_doubled;
+                    + (b_pair_whole & {22{adds_whole}})
+                    + {20'd0, {b_two, b_one && !b_two}};
+  wire [24:0] choice_3 = inverse_12 ? b_less_two : inverse_11 ? b_less_one : b_doubled;
 
   always @(posedge clk) begin
     if (seeks) begin
-      down_digits <= pair_stored ? edge_down : down_digits << 1;
+      down_digits <= pair_stored ? down_way : down_digits << 1;
+      adds_whole <= adds_pair;
       r_digits <= seek_begins ? r_rise[11:0] : r_digits << 1;
-      r_whole <= seek_begins ? {22{r_rise[12]}}
-               : pair_stored ? 22'd0
-               : value_found ? r_pair_whole
+      r_one <= inverse_7;
+      r_two <= inverse_8;
+      r_whole <= whole_begins ? {22{r_rise[12]}}
+               : whole_stored ? 22'd0
+               : whole_of_value ? r_pair_whole
                : sum;
-      r_rest <= seek_begins ? (r_rise[12] ? edge_height - 22'd1 : 22'd0)
+      r_rest <= seek_begins ? (r_rise[12] ? height - 22'd1 : 22'd0)
               : pair_stored ? 22'd0
               : value_found ? r_pair_rest
               : choice[21:0];
       g_digits <= seek_begins ? g_rise[11:0] : g_digits << 1;
-      g_whole <= seek_begins ? {22{g_rise[12]}}
-               : pair_stored ? 22'd0
-               : value_found ? g_pair_whole
+      g_one <= inverse_9;
+      g_two <= inverse_10;
+      g_whole <= whole_begins ? {22{g_rise[12]}}
+               : whole_stored ? 22'd0
+               : whole_of_value ? g_pair_whole
                : sum_2;
-      g_rest <= seek_begins ? (g_rise[12] ? edge_height - 22'd1 : 22'd0)
+      g_rest <= seek_begins ? (g_rise[12] ? height - 22'd1 : 22'd0)
               : pair_stored ? 22'd0
               : value_found ? g_pair_rest
               : choice_2[21:0];
       b_digits <= seek_begins ? b_rise[11:0] : b_digits << 1;
-      b_whole <= seek_begins ? {22{b_rise[12]}}
-               : pair_stored ? 22'd0
-               : value_found ? b_pair_whole
+      b_one <= inverse_11;
+      b_two <= inverse_12;
+      b_whole <= whole_begins ? {22{b_rise[12]}}
+               : whole_stored ? 22'd0
+               : whole_of_value ? b_pair_whole
                : sum_3;
-      b_rest <= seek_begins ? (b_rise[12] ? edge_height - 22'd1 : 22'd0)
+      b_rest <= seek_begins ? (b_rise[12] ? height - 22'd1 : 22'd0)
               : pair_stored ? 22'd0
               : value_found ? b_pair_rest
               : choice_3[21:0];
@@ -292,21 +362,26 @@ module edgewalk_poly (
   end
 
   always @(posedge clk) begin
-    if (seeks && pair_stored) begin
+    if (seeks && whole_stored) begin
       r_pair_whole <= r_whole;
-      r_pair_rest <= r_rest;
       g_pair_whole <= g_whole;
-      g_pair_rest <= g_rest;
       b_pair_whole <= b_whole;
+    end
+  end
+
+  always @(posedge clk) begin
+    if (seeks && pair_stored) begin
+      r_pair_rest <= r_rest;
+      g_pair_rest <= g_rest;
       b_pair_rest <= b_rest;
     end
   end
 
   always @(posedge clk) begin
-    if (seeks && value_found) begin
-      r_edge_value <= r_first;
-      g_edge_value <= g_first;
-      b_edge_value <= b_first;
+    if (seeks && whole_of_value) begin
+      r_edge_value <= r_first[22:1];
+      g_edge_value <= g_first[22:1];
+      b_edge_value <= b_first[22:1];
     end
   end
 
@@ -315,6 +390,14 @@ module edgewalk_poly (
       r_edge_step <= r_rounded;
       g_edge_step <= g_rounded;
       b_edge_step <= b_rounded;
+    end
+  end
+
+  always @(posedge clk) begin
+    if (rst) begin
+      through <= 1'b0;
+    end else begin
+      through <= prim_valid && !any_left && !putting && !fires;
     end
   end
 
@@ -380,8 +463,8 @@ module edgewalk_poly (
   end
 
   always @(posedge clk) begin
+    position <= order_place;
     if (moves_up) position <= position - 6'd1;
-    if (inserts) position <= edges[5:0];
   end
 
   always @(posedge clk) begin
@@ -404,8 +487,10 @@ module edgewalk_poly (
 
   // PASS: the active list of line y through the stages B, a word, and C, the word with its record.
   reg run;                             // lines are passed
+  reg fills;                           // the first word of the order list is stored
   reg [8:0] y;                         // the line
   reg [8:0] y_below;                   // the line below
+  reg [8:0] y_after;                   // the line below that
   reg list;                            // the active list that is read: that of the line
   reg half;                            // the first column of a pair is there
   reg b_valid;
@@ -416,67 +501,92 @@ module edgewalk_poly (
   wire closes_pair = passed && half;
   wire blocked = closes_pair && pair_waits;
 
-  // Stage D: does the edge go behind the last of its list, or before some?
+  // Stage E: does the edge go behind the last of its list, or before some? That is found out on its way from D.
   reg [6:0] count;       // edges in the list of the next line
   reg [30:0] d_key;      // signed, column, 2^F - 1 - R of the edge on the next line
   reg [5:0] d_index;     // its number
+  reg [30:0] e_key;      // signed, column, 2^F - 1 - R of the edge that goes into the list
+  reg [5:0] e_index;     // its number
   reg [30:0] head_key;   // signed, first column, 2^F - 1 - R of the list
   reg [5:0] head_index;  // its number
   reg [30:0] top_key;    // signed, last column, 2^F - 1 - R of the list
   reg [5:0] top_index;   // its number
   reg d_valid;
-  reg moving;            // words move up for the edge of D
-  wire before_top = $signed(d_key) < $signed(top_key);
-  wire begins_moving = d_valid && !moving && (|count) && before_top;
-  wire advance = run && !(moving || begins_moving) && !blocked;
+  reg e_valid;
+  reg before_top;        // the edge of E goes before the last of the list
+  reg moving;            // words move up for the edge of E
+  wire begins_moving = e_valid && !moving && before_top;
+  wire works = run && !fills;
+  wire advance = works && !(moving || begins_moving) && !blocked;
 
-  // The next edge of the order list; while no polygon is walked, the first of the one that is loaded.
-  reg [6:0] waiting;     // edges that have not entered
-  reg [5:0] order_next;  // place behind that of the next edge
+  // The next edge of the order list in registers, and the word behind it on the memory's port; while no polygon is walked, the first of the one that is loaded.
+  reg [6:0] waiting;      // edges that have not entered
+  reg [5:0] order_next;   // place of the word that is read next
   wire [14:0] order_word;
-  wire some_waits = |waiting;
-  wire begins_on_next = order_word[14:6] == y_below;
-  wire enters = run && !b_valid && some_waits && begins_on_next;
+  reg [8:0] order_line;   // first line of the next edge
+  reg [5:0] order_index;  // its number
+  reg due;                // the next edge begins on the next line
+  wire enters = run && !b_valid && due;
   wire entered = advance && enters;
+  wire order_loads = entered || fills;
+  wire more_wait = fills || (waiting > 7'd1);
   reg [14:0] order_q2;
 
   always @(posedge clk) begin
-    if (!run || entered) order_q2 <= order[{bank ^ run, order_next & {6{run}}}];
+    if (!run || order_loads) order_q2 <= order[{bank ^ run, order_next & {6{run}}}];
   end
 
   assign order_word = order_q2;
-  wire line_ends = run && !d_valid && !b_valid && !c_valid && !enters;  // no edge is left on it, none enters
-  wire next_line_starts = line_ends && (|count);
+  wire some_waits = |waiting;
+  wire due_after_next = some_waits && (order_line == y_after);
+  wire line_ends = works && !(moving || begins_moving) && !d_valid && !b_valid && !c_valid && !enters;  // no edge is left on it, none enters
+  wire some_words = (|count) || e_valid;  // of the next line
+  wire next_line_starts = line_ends && some_words;
 
   always @(posedge clk) begin
-    if (entered) begin
-      waiting <= waiting - 7'd1;
-      order_next <= order_next + 6'd1;
-    end
-    if (!run) begin
-      waiting <= edges;
-      order_next <= 6'd1;
+    if (entered) waiting <= waiting - 7'd1;
+    if (!run) waiting <= edges;
+  end
+
+  always @(posedge clk) begin
+    if (order_loads) order_next <= order_next + 6'd1;
+    if (!run) order_next <= 6'd1;
+  end
+
+  always @(posedge clk) begin
+    if (order_loads) begin
+      order_line <= order_word[14:6];
+      order_index <= order_word[5:0];
     end
   end
 
+  always @(posedge clk) begin
+    if (order_loads) due <= more_wait && (order_word[14:6] == y_below);
+    if (line_ends) due <= due_after_next;
+  end
+
   // Stage B: the next word of the list. Its first is kept in a register, to begin with on the next line.
-  reg [6:0] unread;     // words of the list not read yet
-  reg [5:0] next_word;  // place of the next word
+  reg [6:0] unread;          // words of the list not read yet
+  reg [5:0] next_word;       // place of the next word
   wire some_unread = |unread;
-  wire several = count > 7'd1;
+  wire many = count > 7'd1;  // two words at least, without that in E
+  wire several = many || ((|count) && e_valid);
   wire reads = advance && some_unread;
+  wire [6:0] behind_second = e_valid ? count - 7'd1 : count - 7'd2;  // words behind the second
   reg [36:0] lists_q;
 
   always @(posedge clk) begin
     if (advance) lists_q <= lists[{some_unread ? list : !list, some_unread ? next_word : 6'd1}];
   end
 
+  reg b_in_e;  // the word of B is that of E
+
   always @(posedge clk) begin
     if (rst) begin
       unread <= 7'd0;
     end else begin
       if (reads) unread <= unread - 7'd1;
-      if (line_ends) unread <= several ? count - 7'd2 : 7'd0;
+      if (line_ends) unread <= several ? behind_second : 7'd0;
     end
   end
 
@@ -493,8 +603,14 @@ module edgewalk_poly (
     end
   end
 
+  always @(posedge clk) begin
+    if (advance) b_in_e <= line_ends && !many;
+  end
+
   // Stage C: the word with its record.
-  wire [5:0] next_index = b_valid ? lists_q[5:0] : enters ? order_word[5:0] : head_index;
+  wire [5:0] next_index = b_valid ? (b_in_e ? e_index : lists_q[5:0])
+                        : enters ? order_index
+                        : head_index;
   wire [6:0] read_place = {!bank, next_index};
   reg [61:0] steps_q;
 
@@ -515,7 +631,7 @@ module edgewalk_poly (
 
   always @(posedge clk) begin
     if (advance) begin
-      c_key <= b_valid ? lists_q[36:6] : head_key;
+      c_key <= b_valid ? (b_in_e ? e_key : lists_q[36:6]) : head_key;
       c_index <= next_index;
       entering <= !b_valid && enters;
     end
@@ -681,13 +797,11 @@ module edgewalk_poly (
   end
 
   always @(posedge clk) begin
-    if (advance) begin
-      d_rest <= {1'b0, rest[15:0]} - {1'b0, steps_q[15:0]};
-      d_lines_left <= lines_left - 10'd1;
-      d_r <= c_r + c_r_step;
-      d_g <= c_g + c_g_step;
-      d_b <= c_b + c_b_step;
-    end
+    d_rest <= {1'b0, rest[15:0]} - {1'b0, steps_q[15:0]};
+    d_lines_left <= lines_left - 10'd1;
+    d_r <= c_r + c_r_step;
+    d_g <= c_g + c_g_step;
+    d_b <= c_b + c_b_step;
   end
 
   always @(posedge clk) begin
@@ -698,23 +812,41 @@ module edgewalk_poly (
     end
   end
 
-  // The words before which the edge goes move up, the last of them first; then it takes the gap.
-  reg [5:0] gap;  // the place that is free
-  wire [5:0] before_gap = (moving ? gap - 6'd1 : count[5:0] - 6'd1) - 6'd1;
+  // The words before which the edge goes move up, the last of them first; then it takes the gap. They are read a clock ahead of that.
+  reg [5:0] gap;          // the place that is free
+  reg [5:0] next_before;  // place of the word that is read next
+  wire [5:0] read_before = moving ? next_before : count[5:0] - 6'd2;
   reg [36:0] lists_q2;
 
   always @(posedge clk) begin
-    if (d_valid) lists_q2 <= lists[{!list, before_gap}];
+    if (e_valid) lists_q2 <= lists[{!list, read_before}];
   end
 
-  wire shifts = moving && (|gap) && ($signed(d_key) < $signed(lists_q2[36:6]));
-  wire placed = d_valid && !begins_moving && !shifts;  // the edge has its place
+  reg [30:0] gap_word_key;   // the word before the gap
+  reg [5:0] gap_word_index;  // its number
+  reg gap_greater;           // the word before the gap goes behind the edge
+  reg fetches;               // the word before the gap is read
+  wire shifts = moving && !fetches && (|gap) && gap_greater;
+  wire placed = e_valid && !begins_moving && !fetches && !shifts;  // the edge has its place
   wire [5:0] list_place = moving ? gap : count[5:0];
   wire moved = begins_moving || shifts;
 
   always @(posedge clk) begin
-    if (d_valid) lists[{!list, list_place}] <= {moved ? (shifts ? lists_q2[36:6] : top_key) : d_key,
- moved ? (shifts ? lists_q2[5:0] : top_index) : d_index};
+    if (e_valid) lists[{!list, list_place}] <= {moved ? (shifts ? gap_word_key : top_key) : e_key,
+ moved ? (shifts ? gap_word_index : top_index) : e_index};
+  end
+
+  wire first_of_list = !(|count) && !e_valid;  // the list is empty, and so is E
+  wire d_to_e = advance && d_valid;
+  wire d_smaller = $signed(d_key) < $signed(e_valid ? e_key : top_key);
+
+  always @(posedge clk) begin
+    next_before <= read_before - 6'd1;
+    gap_word_key <= lists_q2[36:6];
+    gap_word_index <= lists_q2[5:0];
+    gap_greater <= $signed(e_key) < $signed(lists_q2[36:6]);
+    fetches <= begins_moving;
+    before_top <= d_smaller && !first_of_list;
   end
 
   always @(posedge clk) begin
@@ -732,16 +864,9 @@ module edgewalk_poly (
   end
 
   always @(posedge clk) begin
-    if (placed && (moving ? !(|gap) : !(|count))) begin
-      head_key <= d_key;
-      head_index <= d_index;
-    end
-  end
-
-  always @(posedge clk) begin
     if (placed && !moving) begin
-      top_key <= d_key;
-      top_index <= d_index;
+      top_key <= e_key;
+      top_index <= e_index;
     end
   end
 
@@ -755,11 +880,37 @@ module edgewalk_poly (
   end
 
   always @(posedge clk) begin
+    if (placed && moving && !(|gap)) begin
+      head_key <= e_key;
+      head_index <= e_index;
+    end
+    if (d_to_e && first_of_list) begin
+      head_key <= d_key;
+      head_index <= d_index;
+    end
+  end
+
+  always @(posedge clk) begin
+    if (rst) begin
+      e_valid <= 1'b0;
+    end else begin
+      if (placed) e_valid <= 1'b0;
+      if (advance) e_valid <= d_valid;
+    end
+  end
+
+  always @(posedge clk) begin
+    if (d_to_e) begin
+      e_key <= d_key;
+      e_index <= d_index;
+    end
+  end
+
+  always @(posedge clk) begin
     if (rst) begin
       d_valid <= 1'b0;
-    end else begin
-      if (placed) d_valid <= 1'b0;
-      if (advance) d_valid <= c_valid && !leaves;
+    end else if (advance) begin
+      d_valid <= c_valid && !leaves;
     end
   end
 
@@ -771,8 +922,8 @@ module edgewalk_poly (
   end
 
   // The next line.
-  wire polygon_ends = line_ends && !(|count) && !some_waits;
-  wire [8:0] line_before = prim_start_y - 9'd1;
+  wire polygon_ends = line_ends && !some_words && !some_waits;
+  wire [8:0] second_line = prim_start_y + 9'd1;
   assign pass_writes = writes;
 
   always @(posedge clk) begin
@@ -785,13 +936,21 @@ module edgewalk_poly (
   end
 
   always @(posedge clk) begin
+    fills <= begins;
+  end
+
+  always @(posedge clk) begin
+    if (line_ends) y <= y_below;
+  end
+
+  always @(posedge clk) begin
     if (line_ends) begin
-      y <= y_below;
-      y_below <= y_below + 9'd1;
+      y_below <= y_after;
+      y_after <= y_after + 9'd1;
     end
     if (!run) begin
-      y <= line_before;
       y_below <= prim_start_y;
+      y_after <= second_line;
     end
   end
 
@@ -861,10 +1020,10 @@ module edgewalk_poly (
     end
   end
 
-  wire [9:0] shifted = columns_along >> 1;
+  wire [9:0] shifted_4 = columns_along >> 1;
 
   always @(posedge clk) begin
-    if (doubles) columns_along <= shifted;
+    if (doubles) columns_along <= shifted_4;
     if (takes_pair) columns_along <= columns_away;
   end
 
@@ -872,53 +1031,47 @@ module edgewalk_poly (
     if (rst) begin
       along <= 1'b0;
     end else begin
-      if (doubles) along <= |shifted;
+      if (doubles) along <= |shifted_4;
       if (takes_pair) along <= pair_first[9:0] != at_column;
     end
   end
 
   // Colours from edge to edge. Digits of the place of the first pixel, over the width between the edges; then those of a pixel. Each sum is the colours' difference times the digits so far.
-  reg dividing;                                // digits are found
-  reg [5:0] turns;                             // digits found
-  reg [30:0] apart;                            // from edge to edge, 2^-F px
+  reg dividing;                         // digits are found
+  reg [5:0] turns;                      // digits found
+  reg summing;                          // the digit found last is summed
+  reg [30:0] apart;                     // from edge to edge, 2^-F px
   wire [30:0] into = {pair_first, 16'hffff} - pair_left_key;  // from the left edge to the first pixel, 2^-F px
-  reg [30:0] apart_rest;                       // what is left over of the division
-  wire [32:0] shifted_2 = {2'd0, apart_rest} << 1;
-  wire [32:0] less_apart = shifted_2 - {2'd0, apart};
+  reg [30:0] apart_rest;                // what is left over of the division
+  wire [32:0] shifted_5 = {2'd0, apart_rest} << 1;
+  wire [32:0] less_apart = shifted_5 - {2'd0, apart};
   wire digit = !less_apart[32];
-  wire wide = apart > 31'h10000;               // the edges are more than a pixel apart
-  wire starts = dividing && (turns == 6'd23);  // the sums are those of the first pixel
-  reg [22:0] r_difference;                     // of the right and the left edge, signed
-  reg [45:0] r_sum;                            // times the digits so far, signed
+  reg last_digit;
+  wire wide = apart > 31'h10000;        // the edges are more than a pixel apart
+  wire second_sum = turns == 6'd24;     // the sums of a pixel begin
+  wire starts = summing && second_sum;  // the sums are those of the first pixel
+  reg [22:0] r_difference;              // of the right and the left edge, signed
+  reg [45:0] r_sum;                     // times the digits so far, signed
   wire [21:0] r_part = r_sum[44:23] + {21'd0, r_sum[22]};
-  reg [22:0] g_difference;                     // of the right and the left edge, signed
-  reg [45:0] g_sum;                            // times the digits so far, signed
+  reg [22:0] g_difference;              // of the right and the left edge, signed
+  reg [45:0] g_sum;                     // times the digits so far, signed
   wire [21:0] g_part = g_sum[44:23] + {21'd0, g_sum[22]};
-  reg [22:0] b_difference;                     // of the right and the left edge, signed
-  reg [45:0] b_sum;                            // times the digits so far, signed
+  reg [22:0] b_difference;              // of the right and the left edge, signed
+  reg [45:0] b_sum;                     // times the digits so far, signed
   wire [21:0] b_part = b_sum[44:23] + {21'd0, b_sum[22]};
-  reg offers;                                  // the span is offered
-  wire grants = has_span && !down && !along && !dividing && !offers && !fresh_queued;  // its increments are shown, and it is offered
+  reg offers;                           // the span is offered
+  wire grants = has_span && !down && !along && !dividing && !summing && !offers && !fresh_queued;  // its increments are shown, and it is offered
   assign line_valid = has_span && offers;
-  wire [32:0] choice_5 = digit ? less_apart : shifted_2;
+  wire [32:0] choice_5 = digit ? less_apart : shifted_5;
 
   always @(posedge clk) begin
     if (dividing) begin
       turns <= turns + 6'd1;
       apart_rest <= (turns == 6'd22) ? (wide ? 31'h10000 : 31'd0) : choice_5[30:0];
-      r_sum <= ((turns == 6'd23) ? 46'd0 : r_sum << 1)
-             + ({{23{r_difference[22]}}, r_difference} & {46{digit}});
-      g_sum <= ((turns == 6'd23) ? 46'd0 : g_sum << 1)
-             + ({{23{g_difference[22]}}, g_difference} & {46{digit}});
-      b_sum <= ((turns == 6'd23) ? 46'd0 : b_sum << 1)
-             + ({{23{b_difference[22]}}, b_difference} & {46{digit}});
     end
     if (takes_pair) begin
       turns <= 6'd0;
       apart_rest <= into;
-      r_sum <= 46'd0;
-      g_sum <= 46'd0;
-      b_sum <= 46'd0;
     end
   end
 
@@ -932,11 +1085,39 @@ module edgewalk_poly (
   end
 
   always @(posedge clk) begin
+    if (rst) begin
+      summing <= 1'b0;
+    end else begin
+      summing <= dividing;
+    end
+  end
+
+  always @(posedge clk) begin
     if (takes_pair) begin
       apart <= pair_right_key - pair_left_key;
       r_difference <= {1'b0, pair_right_r} - {1'b0, pair_left_r};
       g_difference <= {1'b0, pair_right_g} - {1'b0, pair_left_g};
       b_difference <= {1'b0, pair_right_b} - {1'b0, pair_left_b};
+    end
+  end
+
+  always @(posedge clk) begin
+    last_digit <= digit;
+  end
+
+  always @(posedge clk) begin
+    if (summing) begin
+      r_sum <= (second_sum ? 46'd0 : r_sum << 1)
+             + ({{23{r_difference[22]}}, r_difference} & {46{last_digit}});
+      g_sum <= (second_sum ? 46'd0 : g_sum << 1)
+             + ({{23{g_difference[22]}}, g_difference} & {46{last_digit}});
+      b_sum <= (second_sum ? 46'd0 : b_sum << 1)
+             + ({{23{b_difference[22]}}, b_difference} & {46{last_digit}});
+    end
+    if (takes_pair) begin
+      r_sum <= 46'd0;
+      g_sum <= 46'd0;
+      b_sum <= 46'd0;
     end
   end
 
@@ -1018,7 +1199,9 @@ module edgewalk_poly (
 
   // Not needed, on purpose.
   wire unused = &{
-    1'b0, prim_major_right, z_moved[0], choice[24:22], choice_2[24:22], choice_3[24:22],
+    1'b0, prim_major_right, r_less_one_carries[24], r_less_two_carries[24], r_first[0],
+    g_less_one_carries[24], g_less_two_carries[24], g_first[0], b_less_one_carries[24],
+    b_less_two_carries[24], b_first[0], z_moved[0], choice[24:22], choice_2[24:22], choice_3[24:22],
     choice_5[32:31]
   };
 

@@ -5,13 +5,13 @@
 //
 //   prim ─> LOAD ─> [edge table] ──────> PASS ─pair─> MOVER ─> line
 //             └──> [order list] ───────> │ ^            └────> inc, held for PIXEL
-//                  [active list of y] ─> B C D ─> [active list of y + 1]
+//                  [active list of y] ─> B C D E ─> [active list of y + 1]
 //
 // LOAD writes the edges of a polygon to one half of the table, and their numbers to the order list, by their first lines.
 // PASS goes through the active list of a line: each pair of columns is a span, each edge steps to the next line and goes
 // into its list, by its column. MOVER takes the values along, by d0 from line to line, by g from column to column.
 //
-// Timing: a line of n edges takes n + 2 clocks, an edge that enters 1 more, one that goes before m others m + 1 more.
+// Timing: a line of n edges takes n + 2 clocks, an edge that enters 1 more, one that goes before m others m + 2 more.
 // MOVER takes a clock a line down, one for each bit of the number of columns, and one more.
 // Rules: a step takes f from R; where R is too small M is added back and the column goes one further (carry).
 // R - f is what is kept, so that its sign says whether the step carries.
@@ -87,19 +87,19 @@ module edgewalk_poly (
   wire pass_writes;  // PASS writes a record
 
   // The table of edges and the lists. A half of each is read while the other is written.
-  reg [73:0] steps [0:127];  // of each edge c, q, f, m, as in the prim
+  reg [73:0] steps [0:127];  // of each edge c, q, f, m - f, as in the prim
   reg [32:0] rests [0:127];  // of each edge R - f, signed, and the lines left
   reg [14:0] order [0:127];  // first line and number of each edge, by the line
   reg [20:0] lists [0:127];  // column and number of each active edge, by the column
 
   // LOAD: the sides of a prim that count and have lines, one after the other.
-  reg bank;                                  // half of the table that is loaded
-  reg [6:0] edges;                           // in that half
-  reg over;                                  // there are more
-  reg putting;                               // an edge goes before others of the order list
-  reg [2:0] did;                             // sides of the prim that are loaded
+  reg bank;                                     // half of the table that is loaded
+  reg [6:0] edges;                              // in that half
+  reg over;                                     // there are more
+  reg putting;                                  // an edge goes before others of the order list
+  reg [2:0] did;                                // sides of the prim that are loaded
   wire [9:0] all_lines = prim_n1 + prim_n2;
-  wire [8:0] knee = prim_jm + prim_n1[8:0];  // first line of the lower part
+  wire [8:0] knee = prim_jm + prim_n1[8:0];     // first line of the lower part
   wire major_left = prim_sides[0] && ((|prim_n1) || (|prim_n2)) && !did[0];
   wire minor1_left = prim_sides[1] && (|prim_n1) && !did[1];
   wire minor2_left = prim_sides[2] && (|prim_n2) && !did[2];
@@ -117,28 +117,31 @@ module edgewalk_poly (
                           : prim_minor2_dist;
   wire [14:0] loaded_q = of_major ? prim_major_q : minor1_left ? prim_minor1_q : prim_minor2_q;
   wire [21:0] loaded_f = of_major ? prim_major_f : minor1_left ? prim_minor1_f : prim_minor2_f;
-  wire [21:0] loaded_m = of_major ? prim_major_m : minor1_left ? prim_minor1_m : prim_minor2_m;
-  assign prim_ready = !putting && !any_left && !(prim_ends && (walking || fresh_queued));
+  wire [21:0] choice = of_major ? prim_major_m : minor1_left ? prim_minor1_m : prim_minor2_m;
+  wire [21:0] extended = of_major ? prim_major_f : minor1_left ? prim_minor1_f : prim_minor2_f;
+  wire [21:0] loaded_back = choice - extended;  // M - f
+  reg through;                                  // no side of the prim was left in the clock before
+  assign prim_ready = through && !(prim_ends && (walking || fresh_queued));
   wire fires = prim_valid && prim_ready;
-  wire closes = fires && prim_ends;          // the polygon has all its edges
-  wire may_begin = prim_valid
-                && prim_ends
-                && !putting
-                && !walking
-                && !fresh_queued
-                && (|edges)
-                && !over
-                && !prim_void;
-  wire begins = may_begin && !any_left;
+  wire closes = fires && prim_ends;             // the polygon has all its edges
+  wire begins = closes && (|edges) && !over && !prim_void;
   assign refused = closes && over;
   wire stores = takes && !edges[6];
   wire [6:0] load_place = {bank, edges[5:0]};
 
   always @(posedge clk) begin
-    if (stores) steps[load_place] <= {loaded_c, loaded_q, loaded_f, loaded_m};
+    if (stores) steps[load_place] <= {loaded_c, loaded_q, loaded_f, loaded_back};
   end
 
   wire [22:0] first_rest = {1'b0, loaded_dist} - {1'b0, loaded_f};  // R - f, signed
+
+  always @(posedge clk) begin
+    if (rst) begin
+      through <= 1'b0;
+    end else begin
+      through <= prim_valid && !any_left && !putting && !fires;
+    end
+  end
 
   always @(posedge clk) begin
     if (rst) begin
@@ -202,8 +205,8 @@ module edgewalk_poly (
   end
 
   always @(posedge clk) begin
+    position <= order_place;
     if (moves_up) position <= position - 6'd1;
-    if (inserts) position <= edges[5:0];
   end
 
   always @(posedge clk) begin
@@ -226,8 +229,10 @@ module edgewalk_poly (
 
   // PASS: the active list of line y through the stages B, a word, and C, the word with its record.
   reg run;                             // lines are passed
+  reg fills;                           // the first word of the order list is stored
   reg [8:0] y;                         // the line
   reg [8:0] y_below;                   // the line below
+  reg [8:0] y_after;                   // the line below that
   reg list;                            // the active list that is read: that of the line
   reg half;                            // the first column of a pair is there
   reg b_valid;
@@ -238,67 +243,92 @@ module edgewalk_poly (
   wire closes_pair = passed && half;
   wire blocked = closes_pair && pair_waits;
 
-  // Stage D: does the edge go behind the last of its list, or before some?
+  // Stage E: does the edge go behind the last of its list, or before some? That is found out on its way from D.
   reg [6:0] count;         // edges in the list of the next line
   reg [14:0] d_column;     // signed, column of the edge on the next line
   reg [5:0] d_index;       // its number
+  reg [14:0] e_column;     // signed, column of the edge that goes into the list
+  reg [5:0] e_index;       // its number
   reg [14:0] head_column;  // signed, first column of the list
   reg [5:0] head_index;    // its number
   reg [14:0] top_column;   // signed, last column of the list
   reg [5:0] top_index;     // its number
   reg d_valid;
-  reg moving;              // words move up for the edge of D
-  wire before_top = $signed(d_column) < $signed(top_column);
-  wire begins_moving = d_valid && !moving && (|count) && before_top;
-  wire advance = run && !(moving || begins_moving) && !blocked;
+  reg e_valid;
+  reg before_top;          // the edge of E goes before the last of the list
+  reg moving;              // words move up for the edge of E
+  wire begins_moving = e_valid && !moving && before_top;
+  wire works = run && !fills;
+  wire advance = works && !(moving || begins_moving) && !blocked;
 
-  // The next edge of the order list; while no polygon is walked, the first of the one that is loaded.
-  reg [6:0] waiting;     // edges that have not entered
-  reg [5:0] order_next;  // place behind that of the next edge
+  // The next edge of the order list in registers, and the word behind it on the memory's port; while no polygon is walked, the first of the one that is loaded.
+  reg [6:0] waiting;      // edges that have not entered
+  reg [5:0] order_next;   // place of the word that is read next
   wire [14:0] order_word;
-  wire some_waits = |waiting;
-  wire begins_on_next = order_word[14:6] == y_below;
-  wire enters = run && !b_valid && some_waits && begins_on_next;
+  reg [8:0] order_line;   // first line of the next edge
+  reg [5:0] order_index;  // its number
+  reg due;                // the next edge begins on the next line
+  wire enters = run && !b_valid && due;
   wire entered = advance && enters;
+  wire order_loads = entered || fills;
+  wire more_wait = fills || (waiting > 7'd1);
   reg [14:0] order_q2;
 
   always @(posedge clk) begin
-    if (!run || entered) order_q2 <= order[{bank ^ run, order_next & {6{run}}}];
+    if (!run || order_loads) order_q2 <= order[{bank ^ run, order_next & {6{run}}}];
   end
 
   assign order_word = order_q2;
-  wire line_ends = run && !d_valid && !b_valid && !c_valid && !enters;  // no edge is left on it, none enters
-  wire next_line_starts = line_ends && (|count);
+  wire some_waits = |waiting;
+  wire due_after_next = some_waits && (order_line == y_after);
+  wire line_ends = works && !(moving || begins_moving) && !d_valid && !b_valid && !c_valid && !enters;  // no edge is left on it, none enters
+  wire some_words = (|count) || e_valid;  // of the next line
+  wire next_line_starts = line_ends && some_words;
 
   always @(posedge clk) begin
-    if (entered) begin
-      waiting <= waiting - 7'd1;
-      order_next <= order_next + 6'd1;
-    end
-    if (!run) begin
-      waiting <= edges;
-      order_next <= 6'd1;
+    if (entered) waiting <= waiting - 7'd1;
+    if (!run) waiting <= edges;
+  end
+
+  always @(posedge clk) begin
+    if (order_loads) order_next <= order_next + 6'd1;
+    if (!run) order_next <= 6'd1;
+  end
+
+  always @(posedge clk) begin
+    if (order_loads) begin
+      order_line <= order_word[14:6];
+      order_index <= order_word[5:0];
     end
   end
 
+  always @(posedge clk) begin
+    if (order_loads) due <= more_wait && (order_word[14:6] == y_below);
+    if (line_ends) due <= due_after_next;
+  end
+
   // Stage B: the next word of the list. Its first is kept in a register, to begin with on the next line.
-  reg [6:0] unread;     // words of the list not read yet
-  reg [5:0] next_word;  // place of the next word
+  reg [6:0] unread;          // words of the list not read yet
+  reg [5:0] next_word;       // place of the next word
   wire some_unread = |unread;
-  wire several = count > 7'd1;
+  wire many = count > 7'd1;  // two words at least, without that in E
+  wire several = many || ((|count) && e_valid);
   wire reads = advance && some_unread;
+  wire [6:0] behind_second = e_valid ? count - 7'd1 : count - 7'd2;  // words behind the second
   reg [20:0] lists_q;
 
   always @(posedge clk) begin
     if (advance) lists_q <= lists[{some_unread ? list : !list, some_unread ? next_word : 6'd1}];
   end
 
+  reg b_in_e;  // the word of B is that of E
+
   always @(posedge clk) begin
     if (rst) begin
       unread <= 7'd0;
     end else begin
       if (reads) unread <= unread - 7'd1;
-      if (line_ends) unread <= several ? count - 7'd2 : 7'd0;
+      if (line_ends) unread <= several ? behind_second : 7'd0;
     end
   end
 
@@ -315,8 +345,14 @@ module edgewalk_poly (
     end
   end
 
+  always @(posedge clk) begin
+    if (advance) b_in_e <= line_ends && !many;
+  end
+
   // Stage C: the word with its record.
-  wire [5:0] next_index = b_valid ? lists_q[5:0] : enters ? order_word[5:0] : head_index;
+  wire [5:0] next_index = b_valid ? (b_in_e ? e_index : lists_q[5:0])
+                        : enters ? order_index
+                        : head_index;
   wire [6:0] read_place = {!bank, next_index};
   reg [73:0] steps_q;
 
@@ -337,7 +373,7 @@ module edgewalk_poly (
 
   always @(posedge clk) begin
     if (advance) begin
-      c_column <= b_valid ? lists_q[20:6] : head_column;
+      c_column <= b_valid ? (b_in_e ? e_column : lists_q[20:6]) : head_column;
       c_index <= next_index;
       entering <= !b_valid && enters;
     end
@@ -401,8 +437,8 @@ module edgewalk_poly (
   // Stage D: the edge on the next line, and its record written back.
   wire leaves = !entering && (lines_left == 10'd1);  // line y is its last one
   wire [14:0] stepped = c_column + steps_q[58:44] + {14'd0, rest[22]};
-  wire [22:0] rest_less = rest - {1'b0, steps_q[43:22]};
-  wire [22:0] rest_back = rest[22] ? {1'b0, steps_q[21:0]} : 23'd0;
+  wire [23:0] joined = {rest[22] ? {1'b0, steps_q[21:0]} : ~{1'b0, steps_q[43:22]}, !rest[22]};
+  wire [23:0] rest_stepped = {rest, 1'b1} + joined;  // and a carry out of the lowest bit
   reg [22:0] d_rest;                                 // R - f, signed
   reg [9:0] d_lines_left;
   reg writes;                                        // the record of D is written
@@ -413,10 +449,8 @@ module edgewalk_poly (
   end
 
   always @(posedge clk) begin
-    if (advance) begin
-      d_rest <= rest_less + rest_back;
-      d_lines_left <= lines_left - 10'd1;
-    end
+    d_rest <= rest_stepped[23:1];
+    d_lines_left <= lines_left - 10'd1;
   end
 
   always @(posedge clk) begin
@@ -427,23 +461,41 @@ module edgewalk_poly (
     end
   end
 
-  // The words before which the edge goes move up, the last of them first; then it takes the gap.
-  reg [5:0] gap;  // the place that is free
-  wire [5:0] before_gap = (moving ? gap - 6'd1 : count[5:0] - 6'd1) - 6'd1;
+  // The words before which the edge goes move up, the last of them first; then it takes the gap. They are read a clock ahead of that.
+  reg [5:0] gap;          // the place that is free
+  reg [5:0] next_before;  // place of the word that is read next
+  wire [5:0] read_before = moving ? next_before : count[5:0] - 6'd2;
   reg [20:0] lists_q2;
 
   always @(posedge clk) begin
-    if (d_valid) lists_q2 <= lists[{!list, before_gap}];
+    if (e_valid) lists_q2 <= lists[{!list, read_before}];
   end
 
-  wire shifts = moving && (|gap) && ($signed(d_column) < $signed(lists_q2[20:6]));
-  wire placed = d_valid && !begins_moving && !shifts;  // the edge has its place
+  reg [14:0] gap_word_column;  // the word before the gap
+  reg [5:0] gap_word_index;    // its number
+  reg gap_greater;             // the word before the gap goes behind the edge
+  reg fetches;                 // the word before the gap is read
+  wire shifts = moving && !fetches && (|gap) && gap_greater;
+  wire placed = e_valid && !begins_moving && !fetches && !shifts;  // the edge has its place
   wire [5:0] list_place = moving ? gap : count[5:0];
   wire moved = begins_moving || shifts;
 
   always @(posedge clk) begin
-    if (d_valid) lists[{!list, list_place}] <= {moved ? (shifts ? lists_q2[20:6] : top_column) : d_column,
- moved ? (shifts ? lists_q2[5:0] : top_index) : d_index};
+    if (e_valid) lists[{!list, list_place}] <= {moved ? (shifts ? gap_word_column : top_column) : e_column,
+ moved ? (shifts ? gap_word_index : top_index) : e_index};
+  end
+
+  wire first_of_list = !(|count) && !e_valid;  // the list is empty, and so is E
+  wire d_to_e = advance && d_valid;
+  wire d_smaller = $signed(d_column) < $signed(e_valid ? e_column : top_column);
+
+  always @(posedge clk) begin
+    next_before <= read_before - 6'd1;
+    gap_word_column <= lists_q2[20:6];
+    gap_word_index <= lists_q2[5:0];
+    gap_greater <= $signed(e_column) < $signed(lists_q2[20:6]);
+    fetches <= begins_moving;
+    before_top <= d_smaller && !first_of_list;
   end
 
   always @(posedge clk) begin
@@ -461,16 +513,9 @@ module edgewalk_poly (
   end
 
   always @(posedge clk) begin
-    if (placed && (moving ? !(|gap) : !(|count))) begin
-      head_column <= d_column;
-      head_index <= d_index;
-    end
-  end
-
-  always @(posedge clk) begin
     if (placed && !moving) begin
-      top_column <= d_column;
-      top_index <= d_index;
+      top_column <= e_column;
+      top_index <= e_index;
     end
   end
 
@@ -484,11 +529,37 @@ module edgewalk_poly (
   end
 
   always @(posedge clk) begin
+    if (placed && moving && !(|gap)) begin
+      head_column <= e_column;
+      head_index <= e_index;
+    end
+    if (d_to_e && first_of_list) begin
+      head_column <= d_column;
+      head_index <= d_index;
+    end
+  end
+
+  always @(posedge clk) begin
+    if (rst) begin
+      e_valid <= 1'b0;
+    end else begin
+      if (placed) e_valid <= 1'b0;
+      if (advance) e_valid <= d_valid;
+    end
+  end
+
+  always @(posedge clk) begin
+    if (d_to_e) begin
+      e_column <= d_column;
+      e_index <= d_index;
+    end
+  end
+
+  always @(posedge clk) begin
     if (rst) begin
       d_valid <= 1'b0;
-    end else begin
-      if (placed) d_valid <= 1'b0;
-      if (advance) d_valid <= c_valid && !leaves;
+    end else if (advance) begin
+      d_valid <= c_valid && !leaves;
     end
   end
 
@@ -500,8 +571,8 @@ module edgewalk_poly (
   end
 
   // The next line.
-  wire polygon_ends = line_ends && !(|count) && !some_waits;
-  wire [8:0] line_before = prim_start_y - 9'd1;
+  wire polygon_ends = line_ends && !some_words && !some_waits;
+  wire [8:0] second_line = prim_start_y + 9'd1;
   assign pass_writes = writes;
 
   always @(posedge clk) begin
@@ -514,13 +585,21 @@ module edgewalk_poly (
   end
 
   always @(posedge clk) begin
+    fills <= begins;
+  end
+
+  always @(posedge clk) begin
+    if (line_ends) y <= y_below;
+  end
+
+  always @(posedge clk) begin
     if (line_ends) begin
-      y <= y_below;
-      y_below <= y_below + 9'd1;
+      y_below <= y_after;
+      y_after <= y_after + 9'd1;
     end
     if (!run) begin
-      y <= line_before;
       y_below <= prim_start_y;
+      y_after <= second_line;
     end
   end
 
@@ -693,7 +772,7 @@ module edgewalk_poly (
   assign line_fence = line_fresh;
 
   // Not needed, on purpose.
-  wire unused = &{1'b0, prim_major_right, z_moved[0], r_moved[0], g_moved[0], b_moved[0]};
+  wire unused = &{1'b0, prim_major_right, rest_stepped[0], z_moved[0], r_moved[0], g_moved[0], b_moved[0]};
 
 endmodule
 

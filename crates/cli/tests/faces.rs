@@ -97,15 +97,22 @@ fn smooth_faces_are_polygons_of_bilinear_colours() {
         |k: i32| format!("f {} {} {} {}\n", place(k, 0), place(k + 1, 0), place(k + 1, 1), place(k, 1));
     let faces: String = (0..12).map(face).collect();
     let folder = folder("a.obj", &(points + &faces));
-    let drawn =
-        |machine: &str| report(folder.path(), &["a.obj", "--shading", "gouraud", "--machine", machine]);
-    let (planes, bilinear) = (drawn("polygon"), drawn("bilinear"));
+    let drawn = |machine: &str| {
+        let arguments = ["a.obj", "--shading", "gouraud", "--machine", machine, "--out", "o"];
+        (report(folder.path(), &arguments), colors(&folder.path().join("o/image.png")).concat())
+    };
+    let ((planes, in_triangles), (bilinear, in_faces)) = (drawn("polygon"), drawn("bilinear"));
     // A face away from the light has one colour.
     let [triangles, polygons] = counts(&planes);
     assert!(triangles + 2 * polygons == 24 && polygons < 3, "{triangles} {polygons}");
     assert_eq!(counts(&bilinear), [0, 12]);
     assert_eq!(planes["fragments"], bilinear["fragments"]);
     is_goldens(&bilinear);
+    // Both have the corners' colours, and differ a little between them.
+    let apart = in_triangles.iter().zip(&in_faces).map(|(a, b)| a.abs_diff(*b));
+    let (most, pixels) = (apart.clone().max(), apart.filter(|apart| *apart > 0).count() / 3);
+    println!("{pixels} pixels differ, by {most:?} LSB at most");
+    assert!(pixels > 100 && most < Some(12), "{pixels} pixels, {most:?} LSB");
 }
 
 #[test]

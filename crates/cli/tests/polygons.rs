@@ -1,6 +1,6 @@
 //! Polygons of triangle files, drawn by the machine's POLY.
 
-use crate::support::{edgewalk, ended, rendered_by_every_engine};
+use crate::support::{edgewalk, ended, npy, rendered_by_every_engine};
 use std::fmt::Write as _;
 
 /// In planes: convex, concave, crossing, with a hole; between triangles and over the sides of the screen.
@@ -130,6 +130,32 @@ fn what_poly_cannot_draw_names_place_and_remedy() {
         let (code, error) = ended(&output);
         assert!(code == Some(2) && error.contains("0, 8, 16, 32, 64, 128"), "{value}: {error}");
     }
+}
+
+/// Each triangle of the built-in scenes has the same pixels by POLY as by EDGE.
+#[test]
+fn built_in_scenes_have_the_same_coverage() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let coverage = |file: &str, edges: &str| {
+        let arguments = ["raster", file, "--engine", "fast", "--out", "o", "--set", edges];
+        let (code, error) = ended(&edgewalk(folder.path(), &arguments).output().expect("runs"));
+        assert_eq!(code, Some(0), "{file}: {error}");
+        npy(&folder.path().join("o/coverage.npy")).2
+    };
+    let mut covered = 0;
+    for scene in ["sphere", "torus", "torus-knot", "terrain", "room"] {
+        let file = format!("{scene}.tri");
+        let arguments = ["triangles", scene, "--out", &file];
+        assert_eq!(ended(&edgewalk(folder.path(), &arguments).output().expect("runs")).0, Some(0));
+        let by_edge = coverage(&file, "polygon.edges=0");
+        assert!(
+            coverage(&file, "polygon.edges=8") == by_edge,
+            "{scene}: a pixel has other triangles by POLY"
+        );
+        covered += by_edge.chunks(4).filter(|count| **count != [0; 4]).count();
+    }
+    println!("5 scenes, {covered} pixels with the same triangles over them");
+    assert!(covered > 300_000, "{covered}");
 }
 
 /// Malformed polygons: the error of each names the line, the value and the permitted values.

@@ -218,6 +218,8 @@ fn rates_and_pages_follow_from_the_accesses() {
 fn clearing_and_a_display_load_the_memory() {
     let folder = tempfile::tempdir().unwrap();
     std::fs::write(folder.path().join("a.tri"), TRIANGLE).unwrap();
+    let own = TRIANGLE.replacen('\n', "\nextra 1\n", 1) + "X 0 0 0\n";
+    std::fs::write(folder.path().join("own.tri"), own).unwrap();
     let dram = "dram:banks=4,page=256,miss=6,turn=2,refresh=0";
     let mut checked = 0;
     // Lines of 64 words fill 12 pages; the first write turns the bus.
@@ -227,13 +229,18 @@ fn clearing_and_a_display_load_the_memory() {
         (dram, &[], 2 + 12 * 6 + 3072, 12 * 6 + 3072),
         (dram, &["--set", "dither.bits=5"], 2 + 12 * 6 + 3072, 12 * 6 + 3072),
         (dram, &["--set", "formats.z_bits=16"], 2 + 12 * 6 + 3072, 12 * 6 + 3072),
+        (dram, &["--set", "channels.extra=1"], 2 + 12 * 6 + 3072, 12 * 6 + 3072),
     ] {
-        let display = ["a.tri", "--stalls", stalls, "--clock", "50", "--display", "60"];
+        let is_own = more.contains(&"channels.extra=1");
+        let input = if is_own { "own.tri" } else { "a.tri" };
+        let display = [input, "--stalls", stalls, "--clock", "50", "--display", "60"];
         let report = render(folder.path(), &[&display[..], &SCREEN, more].concat());
         let display = &report["traffic"]["display"];
         let color = if more.contains(&"dither.bits=5") { 15 } else { 24 };
         let depth = if more.contains(&"formats.z_bits=16") { 16 } else { 24 };
-        for (load, bits, cycles) in [("clear", depth + color, clear), ("scan_out", color, scan_out)] {
+        // A value of the user's own has 12 bits. A display does not read it.
+        let own = if is_own { 12 } else { 0 };
+        for (load, bits, cycles) in [("clear", depth + color + own, clear), ("scan_out", color, scan_out)] {
             let load = &display[load];
             assert_eq!(load["bits"], bits, "{stalls}: {load}");
             assert_eq!(load["accesses"], 64 * 48);
@@ -248,7 +255,7 @@ fn clearing_and_a_display_load_the_memory() {
         // The text tells the figures of the JSON.
         let text = std::fs::read_to_string(folder.path().join("out/render/report.txt")).unwrap();
         for told in [
-            format!("3072 of {:>3} bits", depth + color),
+            format!("3072 of {:>3} bits", depth + color + own),
             format!("bytes, {clear} cycles"),
             format!("bytes, {scan_out} cycles"),
             format!("scan-out at 60 Hz: {:.1} MB/s, {:.1} %", bytes * 60.0 / 1e6, 100.0 * share),
@@ -257,7 +264,7 @@ fn clearing_and_a_display_load_the_memory() {
         }
     }
     println!("{checked} loads");
-    assert_eq!(checked, 10);
+    assert_eq!(checked, 12);
     // Lines of 160 pixels begin 256 words apart: each opens a page, and the words between are not read.
     let wide = ["sphere", "--stalls", dram, "--clock", "1", "--display", "60"];
     let wide = render(folder.path(), &[&wide[..], &SMALL].concat());

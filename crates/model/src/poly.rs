@@ -71,7 +71,7 @@ impl<const C: usize> Poly<C> {
     #[inline]
     #[must_use]
     pub fn prim_ready(&self, prim: &Prim<C>, fresh_queued: bool) -> bool {
-        self.load.is_through(prim) && (!prim.ends || !self.walking() && !fresh_queued)
+        self.load.is_through() && (!prim.ends || !self.walking() && !fresh_queued)
     }
 
     /// The polygon that this prim ends has more edges than the table; asked in the cycle in which it is taken.
@@ -126,7 +126,7 @@ impl<const C: usize> Poly<C> {
         if let Some(prim) = prim
             && prim.ends
             && fires.is_none()
-            && self.load.is_through(prim)
+            && self.load.is_through()
         {
             one_more(&mut events.poly.polygon_fresh_wait);
         }

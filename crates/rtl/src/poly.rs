@@ -26,13 +26,13 @@ const DOC: &str = "POLY walks all edges of a polygon from line to line, a pair o
 
   prim ─> LOAD ─> [edge table] ──────> PASS ─pair─> MOVER ─> line
             └──> [order list] ───────> │ ^            └────> inc, held for PIXEL
-                 [active list of y] ─> B C D ─> [active list of y + 1]
+                 [active list of y] ─> B C D E ─> [active list of y + 1]
 
 LOAD writes the edges of a polygon to one half of the table, and their numbers to the order list, by their first lines.
 PASS goes through the active list of a line: each pair of columns is a span, each edge steps to the next line and goes
 into its list, by its column. MOVER takes the values along, by d0 from line to line, by g from column to column.
 
-Timing: a line of n edges takes n + 2 clocks, an edge that enters 1 more, one that goes before m others m + 1 more.
+Timing: a line of n edges takes n + 2 clocks, an edge that enters 1 more, one that goes before m others m + 2 more.
 MOVER takes a clock a line down, one for each bit of the number of columns, and one more.
 Rules: a step takes f from R; where R is too small M is added back and the column goes one further (carry).
 R - f is what is kept, so that its sign says whether the step carries.

@@ -3,7 +3,7 @@
 
 use crate::common;
 use crate::common::write;
-use edgewalk_machine::Plan;
+use edgewalk_machine::{Machine, Plan};
 use edgewalk_model::DrawState;
 use edgewalk_vectors::{
     Files, Outcome, Simulator, StallKind, Suite, Tables, Unit, capture, design, directory, lint, simulate,
@@ -166,12 +166,39 @@ fn machines_with_blend(machines: &[(&str, Plan)], simulators: impl Fn(usize) -> 
 /// Polygons in Icarus, on one machine in Verilator too; SETUP, POLY and SPAN alone.
 #[test]
 fn machines_with_polygons_replay_and_are_clean() {
-    let done = common::two_at_a_time(&common::polygonal(), |i, (name, machine)| {
+    let machines = common::polygonal();
+    assert_eq!(machines.len(), 4);
+    machines_with_polygons(&machines, |i, unit| {
+        &Simulator::ALL[..1 + usize::from(unit == Unit::MACHINE && i == 1)]
+    });
+}
+
+/// These machines and the presets `polygon` and `bilinear` on a small screen, the machine in both simulators and its units
+/// in Icarus; not part of the test run:
+/// `cargo test --release -p edgewalk-vectors machines_with_polygons_in -- --ignored --nocapture`
+#[test]
+#[ignore = "minutes"]
+fn machines_with_polygons_in_every_tool() {
+    let preset = |name| {
+        let preset = Machine::preset(name).expect("a preset");
+        (name, Machine { width: 48, height: 40, ..preset }.plan().expect("can be built"))
+    };
+    let machines: Vec<_> =
+        common::polygonal().into_iter().chain(["polygon", "bilinear"].map(preset)).collect();
+    assert_eq!(machines.len(), 6);
+    machines_with_polygons(&machines, |_, unit| &Simulator::ALL[..1 + usize::from(unit == Unit::MACHINE)]);
+}
+
+fn machines_with_polygons(
+    machines: &[(&str, Plan)],
+    simulators: impl Fn(usize, Unit) -> &'static [Simulator] + Sync,
+) {
+    let done = common::two_at_a_time(machines, |i, (name, machine)| {
         let suite = joined(machine, &["polygon", "polygon_corners"]);
         let mut checked = 0;
         for unit in [Unit::MACHINE, common::SETUP, common::POLY, common::SPAN] {
             let files = files(machine, unit, &suite, 7, StallKind::ALL[i % 3]);
-            let simulators = &Simulator::ALL[..1 + usize::from(unit == Unit::MACHINE && i == 1)];
+            let simulators = simulators(i, unit);
             checked += simulators.iter().map(|simulator| passes(*simulator, &files)).sum::<u64>();
             if unit == Unit::MACHINE {
                 let place = tempfile::tempdir().expect("a directory");
@@ -182,7 +209,8 @@ fn machines_with_polygons_replay_and_are_clean() {
         println!("{name:50} {checked} checked, lint clean");
         checked
     });
-    assert!(done.len() == 4 && done.iter().all(|checked| *checked > 1500), "{done:?}");
+    println!("{} machines, {} checked", done.len(), done.iter().sum::<u64>());
+    assert!(done.len() == machines.len() && done.iter().all(|checked| *checked > 1500), "{done:?}");
 }
 
 /// Lines in Icarus, on one machine in Verilator too; SETUP, EDGE and SPAN alone.

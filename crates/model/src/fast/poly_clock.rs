@@ -1,9 +1,11 @@
 //! POLY's clock: LOAD a side a clock but in those in which PASS writes, PASS a word a clock but for what it moves and what it
 //! waits for, MOVER from span to span.
 //!
-//! With a, the cycle of a word's step, m words that make room for it, E the cycle in which the pair before leaves its place:
-//! - the next word steps in `max(a + 1 + (m > 0 ? m + 1 : 0), E + 1 if it makes a pair)`;
-//! - the line ends in `a + 2 + m`, in `a + 1` if the word has left;
+//! With a, the cycle of a word's step, m words that make room for it, w = m > 0 ? m + 2 : 0, E the cycle in which the pair before
+//! leaves its place:
+//! - the first word of a polygon steps two cycles behind its begin, one that enters into no other's line one more;
+//! - the next word steps in `a + 1`, behind which w of the word before counts, and not before E + 1 if it makes a pair;
+//! - the line ends in `a + 2 + w`, in `a + 1` if the word has left, behind which w of the word before counts too;
 //! - a line of two edges that go on in their order is two such words and the line's end in one step;
 //! - a pair leaves in `E = max(a + 1, the line before fires)`, and its line is offered in `E + 1 + way`.
 
@@ -25,6 +27,7 @@ impl Clock {
         for room in loads.room.iter().take(loads.sides.into()) {
             prim = self.walking.free_from(prim) + 1 + u64::from(*room);
         }
+        prim += 1; // that no side is left is known a cycle later
         if ends {
             prim = prim.max(self.walking.rests).max(self.edge_free);
         }
@@ -41,12 +44,14 @@ impl Clock {
         writes.clear();
         self.fresh = true;
         // When the next word steps or the line ends; when the pair before has left; when MOVER's line has fired.
-        let (mut next, mut end) = (begin + 1, begin + 1);
+        let (mut next, mut end) = (begin + 2, begin + 2);
+        // Cycles in which words make room for the word before, behind the one in which that one is compared.
+        let mut room = 0;
         let (mut emptied, mut fired) = (begin, begin);
         let mut line_begins = true;
         for step in steps {
             if step.what == What::LineEnds {
-                (next, end) = (end + 1, end + 1);
+                (next, end, room) = (end + 1, end + 1, 0);
                 line_begins = true;
                 continue;
             }
@@ -87,9 +92,10 @@ impl Clock {
             if step.stays && step.what != What::Enters {
                 writes.push(at + 1);
             }
-            let moves = u64::from(step.moves);
-            next = at + 1 + if moves > 0 { moves + 1 } else { 0 };
-            end = at + if step.stays { 2 + moves } else { 1 };
+            next = at + 1 + room;
+            let own = if step.moves > 0 { u64::from(step.moves) + 2 } else { 0 };
+            end = next + if step.stays { 1 + own } else { 0 };
+            room = own;
         }
         // The cycle behind the last line's end.
         self.walking = Walking { rests: next.max(emptied + 1).max(fired + 1), writes, seen: 0 };

@@ -28,7 +28,7 @@ impl Along {
             up,
             half: 1 << colour.fraction >> 1,
             mask: (1 << colour.word()) - 1,
-            clocks: colour.vertex_bits() + w.difference - 1 + 2 * up + t + 4,
+            clocks: colour.vertex_bits() + w.difference - 1 + 2 * up + t + 6,
         }
     }
 

@@ -28,6 +28,9 @@ pub(super) struct Between {
     sums: [i128; 3],
     /// Bits so far, of both quotients.
     turns: u32,
+    /// The bit that was found last, and whether it is to be summed.
+    bit: bool,
+    summing: bool,
     dividing: bool,
     offers: bool,
 }
@@ -44,18 +47,20 @@ impl Between {
             differences: [0; 3],
             sums: [0; 3],
             turns: 0,
+            bit: false,
+            summing: false,
             dividing: false,
             offers: false,
         }
     }
 
     pub fn reset(&mut self) {
-        (self.dividing, self.offers) = (false, false);
+        (self.dividing, self.summing, self.offers) = (false, false, false);
     }
 
-    /// Bits are found.
+    /// Bits are found or summed.
     pub fn dividing(&self) -> bool {
-        self.dividing
+        self.dividing || self.summing
     }
 
     /// The span is offered.
@@ -86,23 +91,25 @@ impl Between {
         (self.sums, self.turns, self.dividing) = ([0; 3], 0, true);
     }
 
-    /// Clock edge: a bit of T or G.
+    /// Clock edge: a bit of T or G, and the one before into the sums.
     pub fn divide<const C: usize>(&mut self, values: &mut Words<C>) {
+        if std::mem::replace(&mut self.summing, self.dividing) {
+            if self.turns == self.k + 1 {
+                let added = self.rounded();
+                for (value, added) in values[COLOURS].iter_mut().zip(added) {
+                    *value = value.wrapping_add(added) & self.mask;
+                }
+                self.sums = [0; 3];
+            }
+            for (sum, difference) in self.sums.iter_mut().zip(self.differences) {
+                *sum = 2 * *sum + if self.bit { i128::from(difference) } else { 0 };
+            }
+        }
         if !self.dividing {
             return;
         }
-        if self.turns == self.k {
-            let added = self.rounded();
-            for (value, added) in values[COLOURS].iter_mut().zip(added) {
-                *value = value.wrapping_add(added) & self.mask;
-            }
-            self.sums = [0; 3];
-        }
-        let fits = 2 * self.rest >= self.apart;
-        self.rest = 2 * self.rest - if fits { self.apart } else { 0 };
-        for (sum, difference) in self.sums.iter_mut().zip(self.differences) {
-            *sum = 2 * *sum + if fits { i128::from(difference) } else { 0 };
-        }
+        self.bit = 2 * self.rest >= self.apart;
+        self.rest = 2 * self.rest - if self.bit { self.apart } else { 0 };
         if self.apart == 0 {
             self.rest = 0; // of a line of one pixel: no difference, whatever the bits
         }
@@ -115,7 +122,7 @@ impl Between {
 
     /// The span is offered from the next clock on, if its colours are known and it is not offered yet; their g.
     pub fn offer(&mut self) -> Option<[u64; 3]> {
-        if self.dividing || self.offers {
+        if self.dividing() || self.offers {
             return None;
         }
         self.offers = true;

@@ -22,6 +22,8 @@ pub(super) struct Load {
     over: bool,
     /// Sides of the prim that are loaded.
     did: [bool; 3],
+    /// No side of the prim was left in the cycle before.
+    through: bool,
     /// Line of the last word of the order list.
     top: u32,
     /// An edge waits for its place in the order list.
@@ -54,6 +56,7 @@ impl Load {
             edges: 0,
             over: false,
             did: [false; 3],
+            through: false,
             top: 0,
             putting: None,
             along: plan.polygon.is_bilinear().then(|| Along::new(plan)),
@@ -64,7 +67,7 @@ impl Load {
 
     pub fn reset(&mut self) {
         (self.bank, self.edges, self.over) = (0, 0, false);
-        (self.did, self.putting) = ([false; 3], None);
+        (self.did, self.through, self.putting) = ([false; 3], false, None);
         (self.at, self.found) = (0, false);
     }
 
@@ -98,9 +101,14 @@ impl Load {
         edges == self.places
     }
 
-    /// No side of the prim is left, and no edge is on its way.
-    pub fn is_through<const C: usize>(&self, prim: &Prim<C>) -> bool {
-        self.putting.is_none() && self.left(prim).is_none()
+    /// No side of the prim that is offered is left, and no edge is on its way, for a cycle or more.
+    pub fn is_through(&self) -> bool {
+        self.through
+    }
+
+    /// A side of the prim is left.
+    pub fn is_left<const C: usize>(&self, prim: &Prim<C>) -> bool {
+        self.left(prim).is_some()
     }
 
     /// The first side that counts, has lines and is not loaded.
@@ -117,6 +125,7 @@ impl Load {
         events: &mut Events,
     ) {
         let left = prim.and_then(|prim| Some((prim, self.left(prim)?)));
+        self.through = prim.is_some() && left.is_none() && self.putting.is_none();
         let found = self.along.is_none() || self.found;
         if let Some(along) = &self.along
             && left.is_some()
@@ -182,7 +191,7 @@ impl Load {
 
     /// The prim fires; of one that ends a polygon gives how many edges there are.
     pub fn take(&mut self, ends: bool) -> u32 {
-        self.did = [false; 3];
+        (self.did, self.through) = ([false; 3], false);
         let edges = self.edges;
         if ends {
             (self.bank, self.edges, self.over) = (1 - self.bank, 0, false);

@@ -74,6 +74,10 @@ pub(super) struct Pass {
     b: Option<Word>,
     c: Option<Read>,
     d: Option<Word>,
+    /// E: D a clock later, compared with the last word of the new list.
+    e: Option<Word>,
+    /// The cycle behind that in which the polygon began.
+    fills: bool,
     /// The record of D is written.
     writes: Option<(u32, Record)>,
     /// The left edge of a pair.
@@ -81,8 +85,10 @@ pub(super) struct Pass {
     /// The last and the first word of the new list.
     top: Word,
     head: Word,
-    /// D goes to this place of the new list, or before it.
+    /// E goes to this place of the new list, or before it.
     gap: Option<u32>,
+    /// The word before that place is read, and not there yet.
+    fetches: bool,
     pair: Option<Pair>,
     /// Not hardware: where the span before ends on this line.
     end: Option<i32>,
@@ -108,11 +114,14 @@ impl Pass {
             b: None,
             c: None,
             d: None,
+            e: None,
+            fills: false,
             writes: None,
             left: None,
             top: Word::default(),
             head: Word::default(),
             gap: None,
+            fetches: false,
             pair: None,
             end: None,
         }
@@ -150,9 +159,9 @@ impl Pass {
         [&old[self.place as usize..][..self.unread as usize], &new[..self.new as usize]]
     }
 
-    /// The word that was read, and whether there is one with its record and one that was stepped.
-    pub fn stages(&self) -> (Option<Word>, Option<Read>, Option<Word>) {
-        (self.b, self.c, self.d)
+    /// The word that was read, that with its record, that which was stepped, and that which goes into the new list.
+    pub fn stages(&self) -> (Option<Word>, Option<Read>, [Option<Word>; 2]) {
+        (self.b, self.c, [self.d, self.e])
     }
 
     /// The left column of a pair whose right one has not come.
@@ -160,7 +169,7 @@ impl Pass {
         self.left.map(|left| left.column)
     }
 
-    /// Where D goes, while words make room for it.
+    /// Where E goes, while words make room for it.
     pub fn gap(&self) -> Option<u32> {
         self.gap
     }
@@ -175,12 +184,13 @@ impl Pass {
         (self.run, self.thin, self.todo, self.next) = (true, thin, edges, 0);
         self.y = first_line.wrapping_sub(1) & self.line_mask;
         (self.new, self.unread, self.left, self.gap, self.end) = (0, 0, None, None, None);
-        (self.b, self.c, self.d, self.writes) = (None, None, None, None);
+        (self.b, self.c, self.d, self.e, self.writes) = (None, None, None, None, None);
+        self.fills = true;
     }
 
-    /// D is smaller than the last word of the new list.
+    /// E is smaller than the last word of the new list.
     fn moves(&self) -> bool {
-        self.gap.is_none() && self.new > 0 && self.d.is_some_and(|d| d.is_before(&self.top))
+        self.gap.is_none() && self.new > 0 && self.e.is_some_and(|e| e.is_before(&self.top))
     }
 
     /// C makes a pair, and its place is full.
@@ -198,32 +208,37 @@ impl Pass {
         if !self.run {
             return;
         }
+        if std::mem::take(&mut self.fills) {
+            return;
+        }
         events.poly.polygon_blocked += u64::from(blocked);
         let (moves, inserting) = (self.moves(), self.gap.is_some());
         let advance = !(inserting || moves || blocked);
         let next = (self.y + 1) & self.line_mask;
         let first = bank.order.get(self.next as usize).copied().filter(|_| self.todo > 0);
         let enters = first.filter(|first| self.b.is_none() && first.line == next);
-        let ends = !inserting && self.b.is_none() && self.c.is_none() && self.d.is_none() && enters.is_none();
+        let empty = self.b.is_none() && self.c.is_none() && self.d.is_none();
+        let ends = !inserting && !moves && empty && enters.is_none();
         if let Some((index, record)) = self.writes.take() {
             bank.edges[index as usize] = record;
         }
         if inserting {
             self.insert(events);
         } else if moves {
-            events.poly.polygon_tie += u64::from(self.d.is_some_and(|d| d.column == self.top.column));
+            events.poly.polygon_tie += u64::from(self.e.is_some_and(|e| e.column == self.top.column));
             self.lists[1 - self.old][self.new as usize] = self.top;
-            self.gap = Some(self.new - 1);
+            (self.gap, self.fetches) = (Some(self.new - 1), true);
             events.poly.polygon_moves += 1;
-        } else if let Some(d) = self.d.take() {
-            self.lists[1 - self.old][self.new as usize] = d;
-            self.head = if self.new == 0 { d } else { self.head };
-            self.top = d;
+        } else if let Some(e) = self.e.take() {
+            self.lists[1 - self.old][self.new as usize] = e;
+            self.head = if self.new == 0 { e } else { self.head };
+            self.top = e;
             self.new += 1;
         }
         if !advance {
             return;
         }
+        self.e = self.d.take();
         self.work(events);
         let words = self.new;
         let read = |index: u32, entering: bool| {
@@ -249,25 +264,28 @@ impl Pass {
         }
     }
 
-    /// A word makes room for D, or D goes to its place.
+    /// A word makes room for E, or E goes to its place.
     fn insert(&mut self, events: &mut Events) {
-        let (Some(gap), Some(d)) = (self.gap, self.d) else { return };
+        let (Some(gap), Some(e)) = (self.gap, self.e) else { return };
+        if std::mem::take(&mut self.fetches) {
+            return;
+        }
         let list = &mut self.lists[1 - self.old];
         let before = gap.checked_sub(1).map(|before| list[before as usize]);
-        if let Some(word) = before.filter(|word| d.is_before(word)) {
-            events.poly.polygon_tie += u64::from(word.column == d.column);
+        if let Some(word) = before.filter(|word| e.is_before(word)) {
+            events.poly.polygon_tie += u64::from(word.column == e.column);
             list[gap as usize] = word;
             self.gap = Some(gap - 1);
             events.poly.polygon_moves += 1;
             return;
         }
-        list[gap as usize] = d;
+        list[gap as usize] = e;
         if gap == 0 {
-            self.head = d;
+            self.head = e;
             events.poly.polygon_whole_list += 1;
         }
         self.new += 1;
-        (self.d, self.gap) = (None, None);
+        (self.e, self.gap) = (None, None);
     }
 
     /// C makes half a pair, or a whole one, and goes on to the next line.

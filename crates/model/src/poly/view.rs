@@ -89,7 +89,7 @@ impl<const C: usize> Poly<C> {
     }
 
     fn view_pass(&self, plan: &Plan, view: &mut View) {
-        let (b, c, d) = self.pass.stages();
+        let (b, c, [_, e]) = self.pass.stages();
         let places = plan.polygon.edges.ilog2() + 1;
         let columns: Vec<&str> =
             ["edge"].into_iter().chain(EdgeWalk::COLUMNS).chain(["lines left"]).collect();
@@ -145,7 +145,7 @@ impl<const C: usize> Poly<C> {
             view.flag("inserting", "words make room for a smaller column", self.pass.gap().is_some());
         view.live(Some(moving));
         view.number("gap", "the free place of the next line's list", places, self.pass.gap().unwrap_or(0));
-        view.signed("key", "the smaller column", column, d.map_or(0, |d| d.column).into());
+        view.signed("key", "the smaller column", column, e.map_or(0, |e| e.column).into());
         view.live(None);
         let pair = self.pass.pair();
         let full = view.flag("pair", "a pair waits for MOVER", pair.is_some());
@@ -215,12 +215,13 @@ impl<const C: usize> Poly<C> {
     fn say(&self, prim: Option<&Prim<C>>, fresh_queued: bool, line_taken: bool, view: &mut View) {
         let fires = prim.filter(|prim| self.prim_ready(prim, fresh_queued));
         let (_, loaded, putting) = self.load.loading();
-        let through = prim.is_some_and(|prim| self.load.is_through(prim));
-        let seeks = prim.is_some() && !through && self.load.sought().is_some_and(|(_, found)| !found);
+        let through = prim.is_some() && self.load.is_through();
+        let left = prim.is_some_and(|prim| self.load.is_left(prim));
+        let seeks = left && self.load.sought().is_some_and(|(_, found)| !found);
         if self.load.sought().is_some() {
             view.says(seeks, "LOAD finds the colours of an edge: clock {at}.");
         }
-        let loads = prim.is_some() && !through && !seeks && putting.is_none() && !self.pass.writes();
+        let loads = left && !seeks && putting.is_none() && !self.pass.writes();
         view.says(loads, "LOAD takes an edge into the table.");
         view.says(
             putting.is_some(),
@@ -232,10 +233,10 @@ impl<const C: usize> Poly<C> {
         let begins = ends && !self.load.over() && loaded > 0 && fires.is_some_and(|prim| !prim.void);
         view.says(begins, "begins with the polygon of {ne} edges.");
         view.says(
-            prim.is_some_and(|prim| prim.ends) && through && fires.is_none(),
+            through && prim.is_some_and(|prim| prim.ends) && fires.is_none(),
             "waits with the next polygon: the one before is walked, or PIXEL has not taken its increments.",
         );
-        let (_, c, d) = self.pass.stages();
+        let (_, c, [_, e]) = self.pass.stages();
         let works = self.pass.runs() && c.is_some() && !self.pass.blocked() && self.pass.gap().is_none();
         let old = works && c.is_some_and(|c| !c.entering);
         let last = c.is_some_and(|c| c.lines == 1);
@@ -248,7 +249,7 @@ impl<const C: usize> Poly<C> {
             self.pass.runs() && self.pass.blocked(),
             "waits with edge {C.edge}: a pair waits for MOVER.",
         );
-        let moves = self.pass.gap().is_some() && d.is_some();
+        let moves = self.pass.gap().is_some() && e.is_some();
         view.says(moves, "column {key} goes before the words behind place {gap}.");
         let waits = self.pass.pair().is_some();
         view.says(waits, "pair {pair_left} to {pair_right} of line {pair_y} waits for MOVER.");

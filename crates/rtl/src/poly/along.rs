@@ -3,6 +3,8 @@
 use edgewalk_machine::{COLOURS, Plan};
 use edgewalk_netlist::{Module, Reg, Signal};
 
+use crate::wires::plus;
+
 /// When the colours of an edge are found.
 pub(super) struct Finds<'m> {
     /// An edge waits for its colours.
@@ -19,7 +21,7 @@ pub(super) struct Lengths<'m> {
     pub down: Signal<'m>,
 }
 
-/// The steps of a search, each from its first clock on.
+/// The steps of a search, each from its first clock on. Whole parts follow their rests a clock later.
 struct Clocks {
     /// The differences of the ends' values by 1/M, after their sign.
     store: u32,
@@ -28,7 +30,7 @@ struct Clocks {
     double: u32,
     /// The value is rounded.
     value: u32,
-    /// The step is rounded: the last clock.
+    /// The step is rounded; the last clock follows.
     step: u32,
 }
 
@@ -36,7 +38,7 @@ impl Clocks {
     fn new(plan: &Plan) -> Clocks {
         let (w, colour) = (plan.widths(), plan.channels()[COLOURS.start]);
         let up = colour.fraction - colour.vertex_fraction;
-        let store = 1 + colour.vertex_bits();
+        let store = 2 + colour.vertex_bits();
         let sum = store + 1;
         let double = sum + w.difference - 1;
         let value = double + up;
@@ -67,19 +69,32 @@ impl<'m> Finds<'m> {
             "Colours along an edge: pairs, whole and rest, of the modulus M, its height. First the difference of its ends over M, a digit a clock.",
         );
         let clocks = Clocks::new(plan);
-        let at = m.reg("seek_at", clocks.step.ilog2() + 1).doc("clocks of the search so far").reset(0);
+        let last = clocks.step + 1;
+        let at = m.reg("seek_at", last.ilog2() + 1).doc("clocks of the search so far").reset(0);
         let is = |clock: u32| at.q().eq(clock as i32);
-        let (begins, stores) = (is(0).named("seek_begins"), is(clocks.store).named("pair_stored"));
-        let (value_is, step_is) =
-            (is(clocks.value).named("value_found"), is(clocks.step).named("step_found"));
-        at.when(self.seeks, step_is.mux(0, at.q() + 1));
-        self.found.when(self.seeks & step_is, 1);
+        let (reads, begins) = (is(0).named("seek_reads"), is(1).named("seek_begins"));
+        let (stores, value_is) =
+            (is(clocks.store).named("pair_stored"), is(clocks.value).named("value_found"));
+        let (begins_late, stores_late) =
+            (is(2).named("whole_begins"), is(clocks.store + 1).named("whole_stored"));
+        let value_late = is(clocks.value + 1).named("whole_of_value");
+        let ended = is(last).named("step_found");
+        at.when(self.seeks, ended.mux(0, at.q() + 1));
+        self.found.when(self.seeks & ended, 1);
+        let reads = (self.seeks & reads).named("reads_edge");
+        let kept = |name: &str, value: Signal<'m>, doc: &str| {
+            m.reg(name, value.width()).doc(doc).when(reads, value).q()
+        };
+        let height = kept("height", lengths.height, "of the edge");
         let sums = (at.q().ge(clocks.sum as i32) & at.q().lt(clocks.double as i32)).named("sums_down");
-        let bits = lengths.height.width();
+        let bits = height.width();
+        let whole_way = kept("down_way", lengths.down, "from the upper end to the first line");
         let down =
             m.reg("down_digits", bits).doc("digits of the lines down that are left, the highest first");
-        down.when(self.seeks, stores.mux(lengths.down, down.q().shl(1)));
+        down.when(self.seeks, stores.mux(whole_way, down.q().shl(1)));
         let adds = (sums & down.q().msb()).named("adds_pair");
+        let adds_late =
+            m.reg("adds_whole", 1).doc("the pair's whole part is added").when(self.seeks, adds).q();
         let digits = at.q().lt(clocks.store as i32).named("takes_digits");
 
         let colours = &plan.channels()[COLOURS];
@@ -87,6 +102,8 @@ impl<'m> Finds<'m> {
             let name = |part: &str| format!("{}_{part}", colour.name);
             let (word, taken) = (colour.word(), colour.vertex_bits());
             let [upper, lower] = ends(colour.name);
+            let upper = kept(&name("from"), upper, "at the upper end");
+            let lower = kept(&name("to"), lower, "at the lower end");
             let less = (lower.zext(taken + 1) - upper.zext(taken + 1)).named(&name("rise"));
             let digit = m.reg(&name("digits"), taken).doc("digits of the difference that are left");
             digit.when(self.seeks, begins.mux(less.trunc(taken), digit.q().shl(1)));
@@ -96,36 +113,51 @@ impl<'m> Finds<'m> {
             let pair_whole = register("pair_whole", word, "the difference over M: whole part");
             let pair_rest = register("pair_rest", bits, "what is left over");
 
-            let modulus = lengths.height.zext(bits + 3);
+            // M and 2 M are taken away side by side.
+            let twice = rest.q().zext(bits + 3).shl(1);
             let added = (digits & digit.q().msb()).zext(bits) | (pair_rest.q() & adds.sext(bits));
-            let doubled = (rest.q().zext(bits + 3).shl(1) + added.zext(bits + 3)).named(&name("doubled"));
-            let less_one = (doubled - modulus).named(&name("less_one"));
-            let less_two = (doubled - modulus.shl(1)).named(&name("less_two"));
+            let added = added.zext(bits + 3);
+            let doubled = (twice + added).named(&name("doubled"));
+            let modulus = height.zext(bits + 3);
+            let less_one = less_than(&name("less_one"), twice, added, modulus);
+            let less_two = less_than(&name("less_two"), twice, added, modulus.shl(1));
             let (one, two) = (!less_one.msb(), !less_two.msb());
             let left = two.mux(less_two, one.mux(less_one, doubled)).trunc(bits);
+            let flag = |part: &str, value: Signal<'m>, doc: &str| {
+                m.reg(&name(part), 1).doc(doc).when(self.seeks, value).q()
+            };
+            let (one, two) = (flag("one", one, "M was in the rest"), flag("two", two, "2 M were in it"));
             let carried = m.cat(&[two, one & !two]).zext(word);
-            let both = whole.q().shl(1) + (pair_whole.q() & adds.sext(word)) + carried;
-            let rounded = (whole.q() + one.zext(word)).named(&name("rounded"));
+            let both = whole.q().shl(1) + (pair_whole.q() & adds_late.sext(word)) + carried;
             let negative = less.msb();
-            let (zero, ends) = (stores, value_is);
             whole.when(
                 self.seeks,
-                begins.mux(negative.sext(word), zero.mux(0, ends.mux(pair_whole.q(), both))),
+                begins_late
+                    .mux(negative.sext(word), stores_late.mux(0, value_late.mux(pair_whole.q(), both))),
             );
-            let before = negative.mux(lengths.height - 1, m.lit(bits, 0));
-            rest.when(self.seeks, begins.mux(before, zero.mux(0, ends.mux(pair_rest.q(), left))));
-            pair_whole.when(self.seeks & stores, whole.q());
+            let before = negative.mux(height - 1, m.lit(bits, 0));
+            rest.when(self.seeks, begins.mux(before, stores.mux(0, value_is.mux(pair_rest.q(), left))));
+            pair_whole.when(self.seeks & stores_late, whole.q());
             pair_rest.when(self.seeks & stores, rest.q());
 
             let up = colour.fraction - colour.vertex_fraction;
-            let base = upper.zext(word).shl(up);
             let half = 1u128 << colour.fraction >> 1;
-            let value = (rounded + base + m.lit(word, half)).named(&name("first"));
+            let base = (upper.zext(word).shl(up) + m.lit(word, half)).named(&name("base"));
+            let value = plus(&name("first"), whole.q(), base, one);
             let value = register("edge_value", word, "on the edge's first line, 2^-r LSB")
-                .when(self.seeks & value_is, value);
-            let step = register("edge_step", word, "to the next line").when(self.seeks & step_is, rounded);
+                .when(self.seeks & value_late, value);
+            let rounded = (whole.q() + one.zext(word)).named(&name("rounded"));
+            let step = register("edge_step", word, "to the next line").when(self.seeks & ended, rounded);
             (value.q(), step.q())
         };
         colours.iter().map(colour).collect()
     }
+}
+
+/// a + b - c, by a sum and carries of each digit and one addition.
+fn less_than<'m>(name: &str, a: Signal<'m>, b: Signal<'m>, c: Signal<'m>) -> Signal<'m> {
+    let (m, c) = (a.module(), !c);
+    let digits = (a ^ b ^ c).named(&format!("{name}_digits"));
+    let carries = ((a & b) | (a & c) | (b & c)).named(&format!("{name}_carries"));
+    (digits + m.cat(&[carries.trunc(a.width() - 1), m.lit(1, 1)])).named(name)
 }

@@ -48,6 +48,8 @@ impl<'m> Between<'m> {
         let last = is(2 * k - 1);
         turns.when(dividing.q(), turns.q() + 1).when(takes, 0);
         dividing.when(last, 0).when(takes, 1);
+        let summing = m.reg("summing", 1).doc("the digit found last is summed").reset(0);
+        summing.set(dividing.q());
 
         let apart =
             m.reg("apart", bits).doc("from edge to edge, 2^-F px").when(takes, right.key - left.key).q();
@@ -57,12 +59,14 @@ impl<'m> Between<'m> {
         let doubled = rest.q().zext(bits + 2).shl(1);
         let less = (doubled - apart.zext(bits + 2)).named("less_apart");
         let digit = (!less.msb()).named("digit");
+        let found = m.reg("last_digit", 1).set(digit).q();
         let pixel = m.lit(bits, 1 << fraction);
         let wide = apart.gt(pixel).named_doc("wide", "the edges are more than a pixel apart");
         let turned = is(k - 1).mux(wide.mux(pixel, 0), digit.mux(less, doubled).trunc(bits));
         rest.when(dividing.q(), turned).when(takes, into);
 
-        let moves = (dividing.q() & is(k)).named_doc("starts", "the sums are those of the first pixel");
+        let restarts = is(k + 1).named_doc("second_sum", "the sums of a pixel begin");
+        let moves = (summing.q() & restarts).named_doc("starts", "the sums are those of the first pixel");
         let colour = |colour: usize| {
             let name = plan.channels()[COLOURS.start + colour].name;
             let [from, to] = [left.colours[colour], right.colours[colour]];
@@ -72,15 +76,15 @@ impl<'m> Between<'m> {
                 .when(takes, to.zext(k) - from.zext(k))
                 .q();
             let sum = m.reg(&format!("{name}_sum"), 2 * k).doc("times the digits so far, signed");
-            let so_far = is(k).mux(0, sum.q().shl(1));
-            let added = difference.sext(2 * k) & digit.sext(2 * k);
-            sum.when(dividing.q(), so_far + added).when(takes, 0);
+            let so_far = restarts.mux(0, sum.q().shl(1));
+            let added = difference.sext(2 * k) & found.sext(2 * k);
+            sum.when(summing.q(), so_far + added).when(takes, 0);
             let rounded = sum.q().slice(k + word - 1, k) + sum.q().bit(k - 1).zext(word);
             (from, rounded.named(&format!("{name}_part")))
         };
         let colours = [0, 1, 2].map(colour);
         let offers = m.reg("offers", 1).doc("the span is offered").reset(0);
-        let grants = there & !dividing.q() & !offers.q() & !fresh_queued;
+        let grants = there & !dividing.q() & !summing.q() & !offers.q() & !fresh_queued;
         let grants = grants.named_doc("grants", "its increments are shown, and it is offered");
         offers.when(fires, 0).when(grants, 1);
         Some(Between { offers: offers.q(), grants, moves, colours })

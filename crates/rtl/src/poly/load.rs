@@ -91,7 +91,14 @@ impl<'m> Load<'m> {
         let lines = chosen(&|side| side.lines).named("lines");
         let parts = parts_of_edge(&prim.parts());
         let part = |name: &str| chosen(&|side| prim[format!("{}_{name}", side.edge).as_str()]);
-        let edge = Token::new(parts, |name| part(name).named(&format!("loaded_{name}")));
+        let edge = Token::new(parts, |name| match name {
+            // A step with a carry adds M - f.
+            "m" => {
+                let modulus = part("m");
+                (modulus - part("f").zext(modulus.width())).named_doc("loaded_back", "M - f")
+            }
+            _ => part(name).named(&format!("loaded_{name}")),
+        });
         let colours = finds.map_or_else(Vec::new, |finds| {
             finds.found.when(takes, 0);
             let field = |name: &str| prim[name];
@@ -107,14 +114,13 @@ impl<'m> Load<'m> {
         });
 
         let closes = prim["ends"];
-        let prim_ready = !putting.q() & !any_left & !(closes & (walking | fresh_queued));
+        let through = m.reg("through", 1).doc("no side of the prim was left in the clock before").reset(0);
+        let prim_ready = through.q() & !(closes & (walking | fresh_queued));
         let prim_ready = prim_ready.named("prim_ready");
         let fires = (prim_valid & prim_ready).named("fires");
         let closes = (fires & closes).named_doc("closes", "the polygon has all its edges");
-        // Which sides are left is known last.
-        let may_begin = prim_valid & prim["ends"] & !putting.q() & !walking & !fresh_queued;
-        let may_begin = may_begin & edges.q().any() & !over.q() & !prim["void"];
-        let begins = (may_begin.named("may_begin") & !any_left).named("begins");
+        let begins = (closes & edges.q().any() & !over.q() & !prim["void"]).named("begins");
+        through.set(prim_valid & !any_left & !putting.q() & !fires);
         let refused = (closes & over.q()).named("refused");
         bank.when(closes, !bank.q());
         did.when(takes, did.q() | turn).when(fires, 0);
@@ -216,8 +222,8 @@ impl<'m> Order<'_, 'm> {
         let ended = (putting & !moves).named("ended");
         last.when(appends, first);
         line.when(!putting, first);
-        position.when(moves, position.q() - 1).when(inserts, edges.trunc(tables.index));
         let place = putting.mux(position.q(), edges.trunc(tables.index)).named("order_place");
+        position.set(place).when(moves, position.q() - 1);
         let written = Word::choose(putting, Word::choose(moves, word, put), own);
         tables.order.write(appends | putting, tables.at(bank, place), written.joined());
         Ordered { appends, inserts, ended }

@@ -9,7 +9,7 @@ use super::load::Load;
 use super::table::{EdgeColour, Tables, Word};
 use crate::light_pass::LightPass;
 use crate::stepping::Rest;
-use crate::wires::Token;
+use crate::wires::{Token, plus};
 
 /// What PASS reads of the rest of POLY.
 pub(super) struct Links<'a, 'm> {
@@ -57,9 +57,12 @@ pub(super) struct End<'m> {
 /// The registers of a line, without updates.
 struct Line<'m> {
     run: Reg<'m>,
+    /// The order list's first word is stored.
+    fills: Reg<'m>,
     y: Reg<'m>,
-    /// The line below.
+    /// The line below, and the one below that.
     next: Reg<'m>,
+    below: Reg<'m>,
     /// The active list that is read.
     list: Reg<'m>,
     half: Reg<'m>,
@@ -77,7 +80,7 @@ impl<'m> Pass<'m> {
             "PASS: the active list of line y through the stages B, a word, and C, the word with its record.",
         );
         let line = Line::new(m, tables);
-        let Line { run, y, next, half, b_valid, c_valid, entering, .. } = line;
+        let Line { run, fills, y, next, half, b_valid, c_valid, entering, .. } = line;
         let held = |name: &str| prim.get(name).map(|value| m.reg(name, 1).when(!walking, value).q());
         let thin = held("thin");
         let pair_waits = m.reg("pair_waits", 1).doc("a pair of columns waits for MOVER").reset(0);
@@ -87,13 +90,16 @@ impl<'m> Pass<'m> {
         let pairs = (leaving & thin.map_or(half.q(), |thin| thin | half.q())).named("closes_pair");
         let blocked = (pairs & pair_waits.q()).named("blocked");
         let inserts = Inserts::new(m, tables);
-        let advance = (run.q() & !inserts.holds() & !blocked).named("advance");
+        let works = (run.q() & !fills.q()).named("works");
+        let advance = (works & !inserts.holds() & !blocked).named("advance");
 
         let entry = Entry::new(m, tables, load, &line, advance);
-        let ends = run.q() & !inserts.valid.q() & !b_valid.q() & !c_valid.q() & !entry.enters;
+        let empty = !inserts.stepped_valid.q() & !b_valid.q() & !c_valid.q() & !entry.enters;
+        let ends = works & !inserts.holds() & empty;
         let ends = ends.named_doc("line_ends", "no edge is left on it, none enters");
-        let words = inserts.count.q();
-        let starts = (ends & words.any()).named("next_line_starts");
+        entry.updates(ends);
+        let words = (inserts.count.q().any() | inserts.valid.q()).named_doc("some_words", "of the next line");
+        let starts = (ends & words).named("next_line_starts");
         let b = line.read(m, tables, &inserts, advance, ends);
 
         m.comment("Stage C: the word with its record.");
@@ -160,26 +166,36 @@ impl<'m> Pass<'m> {
             true => (m.cat(&[steps["c"], !steps["dist"]]), m.cat(&[stepped, !rest.trunc(rest.width() - 1)])),
         };
         let edge = Word { key: entering.q().mux(first, stepped), index: c.index };
-        let stepped = Rest { name: "rest", rest, f: steps["f"], modulus: steps.get("m") }.next(m);
-        let stepped = m.reg("d_rest", stepped.width()).doc("R - f, signed").when(advance, stepped).q();
-        let lines = m.reg("d_lines_left", lines_left.width()).when(advance, lines_left - 1).q();
+        let stepped = match steps.get("m") {
+            // M - f is added with a carry, else f is taken away.
+            Some(back) => {
+                let (carry, bits) = (rest.msb(), rest.width());
+                plus("rest_stepped", rest, carry.mux(back.zext(bits), !steps["f"].zext(bits)), !carry)
+            }
+            None => Rest { name: "rest", rest, f: steps["f"], modulus: None }.next(m),
+        };
+        let stepped = m.reg("d_rest", stepped.width()).doc("R - f, signed").set(stepped).q();
+        let lines = m.reg("d_lines_left", lines_left.width()).set(lines_left - 1).q();
         let writes = m.reg("writes", 1).doc("the record of D is written").reset(0);
         let writes = writes.set(advance & leaving & !leaves).q();
         let stores = (load.stores | writes).named("rests_written");
-        let place = writes.mux(tables.at(!load.bank, inserts.edge.q().index), load.place);
+        let place = writes.mux(tables.at(!load.bank, inserts.stepped.q().index), load.place);
         tables.rests.write(stores, place, writes.mux(m.cat(&[stepped, lines]), load.rest));
         if let Some(colours) = &colours {
-            colours.write(m, tables, &Writes { advance, stores, place, writes, of_load: &load.values });
+            colours.write(m, tables, &Writes { stores, place, writes, of_load: &load.values });
         }
         let valid = c_valid.q() & !leaves;
         inserts.update(&Comes { list: !line.list.q(), advance, valid, edge, line_ends: ends });
 
         m.comment("The next line.");
-        let last = (ends & !words.any() & !entry.some).named("polygon_ends");
+        let last = (ends & !words & !entry.some).named("polygon_ends");
         run.when(last, 0).when(load.begins, 1);
+        fills.set(load.begins);
         let first = prim["start_y"].zext(tables.line);
-        y.when(ends, next.q()).when(!run.q(), (first - 1).named("line_before"));
-        next.when(ends, next.q() + 1).when(!run.q(), first);
+        // The line before the first has no pair, and needs no number.
+        y.when(ends, next.q());
+        next.when(ends, line.below.q()).when(!run.q(), first);
+        line.below.when(ends, line.below.q() + 1).when(!run.q(), (first + 1).named("second_line"));
         line.list.when(ends, !line.list.q());
         Pass { run: run.q(), writes, pair }
     }
@@ -193,7 +209,6 @@ struct Colours<'m> {
 
 /// When and where colours are written.
 struct Writes<'a, 'm> {
-    advance: Signal<'m>,
     stores: Signal<'m>,
     place: Signal<'m>,
     /// By PASS, not by LOAD.
@@ -234,7 +249,7 @@ impl<'m> Colours<'m> {
     fn write(&self, m: &'m Module, tables: &Tables<'m>, of: &Writes<'_, 'm>) {
         for (k, table) in tables.colours.iter().enumerate() {
             let stepped = self.values[k] + self.steps[k];
-            let stepped = m.reg(&format!("d_{}", table.name), stepped.width()).when(of.advance, stepped).q();
+            let stepped = m.reg(&format!("d_{}", table.name), stepped.width()).set(stepped).q();
             table.values.write(of.stores, of.place, of.writes.mux(stepped, of.of_load[k]));
         }
     }
@@ -244,8 +259,10 @@ impl<'m> Line<'m> {
     fn new(m: &'m Module, tables: &Tables<'m>) -> Line<'m> {
         Line {
             run: m.reg("run", 1).doc("lines are passed").reset(0),
+            fills: m.reg("fills", 1).doc("the first word of the order list is stored"),
             y: m.reg("y", tables.line).doc("the line"),
             next: m.reg("y_below", tables.line).doc("the line below"),
+            below: m.reg("y_after", tables.line).doc("the line below that"),
             list: m.reg("list", 1).doc("the active list that is read: that of the line").reset(0),
             half: m.reg("half", 1).doc("the first column of a pair is there").reset(0),
             b_valid: m.reg("b_valid", 1).reset(0),
@@ -264,20 +281,26 @@ impl<'m> Line<'m> {
         ends: Signal<'m>,
     ) -> Word<'m> {
         m.comment("Stage B: the next word of the list. Its first is kept in a register, to begin with on the next line.");
-        let words = inserts.count.q();
+        let (words, last) = (inserts.count.q(), inserts.valid.q());
         let unread = m.reg("unread", tables.index + 1).doc("words of the list not read yet").reset(0);
         let next = m.reg("next_word", tables.index).doc("place of the next word");
         let some = unread.q().any().named("some_unread");
-        let several = words.gt(1).named("several");
+        // The word in E goes to the end of the list in this clock.
+        let many = words.gt(1).named_doc("many", "two words at least, without that in E");
+        let several = (many | (words.any() & last)).named("several");
         let reads = (advance & some).named("reads");
-        unread.when(reads, unread.q() - 1).when(ends, several.mux(words - 2, 0));
+        let behind = last.mux(words - 1, words - 2).named_doc("behind_second", "words behind the second");
+        unread.when(reads, unread.q() - 1).when(ends, several.mux(behind, 0));
         next.when(reads, next.q() + 1).when(ends, 2);
         // Where none is left the second of the next line's is read, for the clock in which the line ends.
         let list = some.mux(self.list.q(), !self.list.q());
         let place = some.mux(next.q(), 1);
         let word = tables.lists.read(advance, tables.at(list, place));
         self.b_valid.when(advance, some | (ends & several));
-        tables.word(word)
+        // A second word that goes to the list in the clock in which it is read stays in E. Of a thin polygon with several
+        // edges C may wait for MOVER then, and B with it.
+        let in_e = m.reg("b_in_e", 1).doc("the word of B is that of E").when(advance, ends & !many).q();
+        Word::choose(in_e, inserts.edge.q(), tables.word(word))
     }
 }
 
@@ -289,6 +312,9 @@ struct Entry<'m> {
     enters: Signal<'m>,
     /// Number of the edge.
     index: Signal<'m>,
+    /// The register of that, and what it is when the line has ended.
+    due: Reg<'m>,
+    after_next: Signal<'m>,
 }
 
 impl<'m> Entry<'m> {
@@ -299,21 +325,34 @@ impl<'m> Entry<'m> {
         line: &Line<'m>,
         advance: Signal<'m>,
     ) -> Entry<'m> {
-        m.comment("The next edge of the order list; while no polygon is walked, the first of the one that is loaded.");
-        let Line { run, next, b_valid, .. } = *line;
+        m.comment("The next edge of the order list in registers, and the word behind it on the memory's port; while no polygon is walked, the first of the one that is loaded.");
+        let Line { run, fills, next, below, b_valid, .. } = *line;
         let waiting = m.reg("waiting", tables.index + 1).doc("edges that have not entered");
-        let behind = m.reg("order_next", tables.index).doc("place behind that of the next edge");
+        let behind = m.reg("order_next", tables.index).doc("place of the word that is read next");
         let word = m.wire("order_word", tables.line + tables.index);
-        let first = tables.word(word.q());
-        let some = waiting.q().any().named("some_waits");
-        let on_next = first.key.eq(next.q()).named("begins_on_next");
-        let enters = (run.q() & !b_valid.q() & some & on_next).named("enters");
+        let read = tables.word(word.q());
+        let first = m.reg("order_line", tables.line).doc("first line of the next edge");
+        let index = m.reg("order_index", tables.index).doc("its number");
+        let due = m.reg("due", 1).doc("the next edge begins on the next line");
+        let enters = (run.q() & !b_valid.q() & due.q()).named("enters");
         let taken = (advance & enters).named("entered");
+        let loads = (taken | fills.q()).named("order_loads");
         waiting.when(taken, waiting.q() - 1).when(!run.q(), load.edges);
-        behind.when(taken, behind.q() + 1).when(!run.q(), 1);
+        behind.when(loads, behind.q() + 1).when(!run.q(), 1);
+        first.when(loads, read.key);
+        index.when(loads, read.index);
+        let more = (fills.q() | waiting.q().gt(1)).named("more_wait");
+        due.when(loads, more & read.key.eq(next.q()));
         let place = behind.q() & run.q().sext(tables.index);
         let place = tables.at(load.bank ^ run.q(), place);
-        word.drive(tables.order.read(!run.q() | taken, place));
-        Entry { some, enters, index: first.index }
+        word.drive(tables.order.read(!run.q() | loads, place));
+        let some = waiting.q().any().named("some_waits");
+        let after_next = (some & first.q().eq(below.q())).named("due_after_next");
+        Entry { some, enters, index: index.q(), due, after_next }
+    }
+
+    /// The line ends.
+    fn updates(&self, ends: Signal<'m>) {
+        self.due.when(ends, self.after_next);
     }
 }

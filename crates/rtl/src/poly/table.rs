@@ -9,7 +9,7 @@ use crate::wires::{Part, Token};
 /// The memories, and what their words are made of.
 pub(super) struct Tables<'m> {
     m: &'m Module,
-    /// What no step changes of an edge: its first column, q, f and M; a half is loaded, the other walked.
+    /// What no step changes of an edge: its first column, q, f and M - f; a half is loaded, the other walked.
     pub steps: Memory<'m>,
     /// What a step changes: R - f, and the lines left.
     pub rests: Memory<'m>,
@@ -81,7 +81,8 @@ impl<'m> Tables<'m> {
                 .doc("of each edge the colour's step to the next line"),
         };
         let colours = if bilinear { &plan.channels()[COLOURS] } else { &[] };
-        let names: Vec<&str> = parts.iter().map(|part| part.name.as_str()).collect();
+        let name = |part: &Part| if part.name == "m" { "m - f".to_owned() } else { part.name.clone() };
+        let names: Vec<String> = parts.iter().map(name).collect();
         Tables {
             m,
             steps: memory("steps", parts.iter().map(|part| part.width).sum())

@@ -110,11 +110,18 @@ pub(super) fn corners(machine: &Plan) -> Vec<Case> {
             let upright = vec![(1.0, 1.0), (3.0, 1.0), (3.0, 8.0), (1.0, 8.0)];
             of(&[upright, vec![(12.0, 3.2), (-14.0, 5.2), (12.0, 7.0)]])
         }),
+        // Six upright edges, and two that go before all of them on one line.
+        case("before_six_others", {
+            let columns = [1.0, 3.5, 6.0].map(|x| vec![(x, 1.0), (x + 1.5, 1.0), (x + 1.5, 8.0), (x, 8.0)]);
+            let back = vec![(12.0, 3.2), (-14.0, 5.2), (12.0, 7.0)];
+            of(&columns.into_iter().chain([back]).collect::<Vec<_>>())
+        }),
         case("a_long_way_down", of(&[square(1.0, 1.0, 2.0), square(6.0, h - 3.0, 2.0)])),
-        // Without lines a triangle.
+        // Without lines a triangle. With them a thin polygon, of two edges on most lines.
         case("a_line_behind_edges", {
             let line = machine.line([triangle[0], triangle[2]]);
-            [as_role(low, Role::Edges(Sides::ALL)), machine.with_window(line, Window::default())]
+            let tall = pen.shaded([(1.0, 1.0), (4.0, 1.5), (2.0, h)], [0.3; 3]);
+            [as_role(tall, Role::Edges(Sides::ALL)), machine.with_window(line, Window::default())]
         }),
         case("sides_that_do_not_count", {
             let some = |sides| Role::Edges(Sides::new(sides));

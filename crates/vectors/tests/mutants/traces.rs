@@ -90,8 +90,13 @@ pub fn traces(machine: &Plan, unit: Unit) -> Vec<Trace> {
             for stalls in StallKind::ALL {
                 traces.push(capture(machine, unit, &suite, suite.state, stalls));
             }
-            let cut = [23, 97, 230].map(|each| setup::cut_often(&traces[1], each));
+            let cut = [11, 17, 23, 41, 97, 230].map(|each| setup::cut_often(&traces[1], each));
             traces.extend(cut);
+            // A line behind edges is walked as a thin polygon of several edges: each way in which MOVER may keep it waiting.
+            for seed in 1..=4 {
+                let corners = Suite::named(machine, "polygon_corners", seed, 24).expect("listed");
+                traces.push(capture(machine, unit, &corners, corners.state, StallKind::Mixed));
+            }
         }
         "pixel" => {
             traces
