@@ -17,6 +17,11 @@ impl Word {
         Word(fields.iter().map(part).collect())
     }
 
+    /// All other parts are alike.
+    pub fn differs_in(&self, other: &Word, parts: &[&str]) -> bool {
+        self.0.iter().all(|(name, part)| parts.contains(name) || other.0[name] == *part)
+    }
+
     pub fn get(&self, name: &str) -> u32 {
         self.0[name]
     }
