@@ -68,7 +68,7 @@ impl Alone {
     fn prim_ready(cycle: usize) -> bool {
         match cycle / 4096 % 4 {
             0 | 1 => true,
-            2 => cycle % 1024 == 0,
+            2 => cycle.is_multiple_of(1024),
             _ => cycle % 4096 == 4095,
         }
     }
@@ -112,7 +112,7 @@ impl Alone {
 
     /// Words come at once in some stretches, and in others now and then.
     fn offers(cycle: usize) -> bool {
-        cycle / 2048 % 2 == 0 || cycle * cycle / 7 % 3 == 0
+        (cycle / 2048).is_multiple_of(2) || (cycle * cycle / 7).is_multiple_of(3)
     }
 
     fn right(&self, words: &[u128]) -> Right {
