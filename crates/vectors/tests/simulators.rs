@@ -11,7 +11,8 @@ use edgewalk_vectors::{
 };
 use std::time::{Duration, Instant};
 
-const LIMIT: Duration = Duration::from_secs(600);
+/// Of one run of a tool: Verilator's compiler takes minutes on a busy machine.
+const LIMIT: Duration = Duration::from_secs(1800);
 
 const SUITES: [&str; 4] = ["hazards", "corners", "random", "sphere"];
 

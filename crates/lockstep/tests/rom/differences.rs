@@ -1,18 +1,19 @@
 //! Differences between a flipped word and the right word.
 
-use super::known::{At, Flow, Known, code};
+use super::flow::Flow;
+use super::known::{At, Known, code};
 use super::thing::{Differing, Thing, Thing::*};
 use super::word::{Row, Word};
-
-/// Clocks that the skipping of leading digits takes at most, and some.
-const SKIPPED: u8 = 27;
 
 /// Of A and W the parts that a result is made of. The order is that of the ROM's numbers.
 pub fn given(give: u8) -> &'static [Thing] {
     match give {
-        1..=4 | 6 | 7 => &[A],
+        4 => &[A, Below],
+        // The others are numbers of P.
+        1..=3 | 6 | 7 => &[A],
+        // q is short.
         5 => &[A, W],
-        _ => &[W],
+        _ => &[W, High],
     }
 }
 
@@ -25,9 +26,9 @@ pub fn numbered(give: u8, at: At) -> u8 {
 pub fn differences(flow: &Flow, at: At, known: &Known, other: &Word) -> Option<Differing> {
     let word = flow.word(at);
     let mut found = Differing::default();
-    jumps_alike(at, known, word, other, &mut found)?;
+    jumps_alike(flow, at, known, word, other, &mut found)?;
     acts_alike(flow, at, known, word, other, &mut found)?;
-    let (row, other_row) = (word.row(at.number), other.row(at.number));
+    let (row, other_row) = (known.read(word, at.number), known.read(other, at.number));
     let same_a = row == other_row || known.row(row) == known.row(other_row) && known.row(row).is_zero();
     for (load, factor) in [("load_f", F), ("load_g", G)] {
         match (word.is(load), other.is(load)) {
@@ -36,35 +37,51 @@ pub fn differences(flow: &Flow, at: At, known: &Known, other: &Word) -> Option<D
                 found.add([factor, Left]);
                 if load == "load_g" {
                     found.add([Skips]);
-                    // Not more than the digits there are; a factor that is loaded meanwhile makes them more.
                     if b && known.settled {
-                        found.0.insert(Skips, Some(SKIPPED));
+                        found.0.insert(Skips, Some(known.skipping_of(known.row(other_row))));
                     }
                 }
             }
             _ => {}
         }
     }
-    let [mut a, mut w] = [false, false];
+    let [mut a, mut below, mut w, mut high] = [false; 4];
     for negative in known.a.signs() {
         for right in at.right.map_or(vec![true, false], |right| vec![right]) {
             for upper in at.upper.map_or(vec![true, false], |upper| vec![upper]) {
                 let case = Case { negative, right, upper };
                 let [old, new] = [word, other].map(|word| sum(at, known, word, case));
-                a |= old.0 != new.0;
-                w |= old.1 != new.1;
+                let above = [&old.0, &new.0].iter().all(|sum| sum.is_above(known, flow.pixel));
+                a |= old.0 != new.0 && !above;
+                below |= old.0 != new.0 && above;
+                // Without what is raised.
+                let low = |sum: &Sum| {
+                    let operand = sum.operand.filter(|(row, _)| !known.is_w_zero(*row));
+                    Sum { operand, more: (None, sum.more.1), ..*sum }
+                };
+                let alike = low(&old.1) == low(&new.1);
+                w |= !alike;
+                high |= alike && old.1 != new.1;
             }
         }
     }
-    found.add([(a, A), (w, W)].into_iter().filter(|(is, _)| *is).map(|(_, thing)| thing));
+    found.add(
+        [(a, A), (below, Below), (w, W), (high, High)]
+            .into_iter()
+            .filter(|(is, _)| *is)
+            .map(|(_, thing)| thing),
+    );
     if a && [word, other].iter().any(|word| word.get("act") == code::CHECK) {
         found.add([Unfit]);
     }
     let written = |word: &Word, which: &str| word.is(which).then(|| word.written(at.number));
-    let zero = !w && known.is_w_zero_behind(word, row);
-    for (which, thing, differs) in
-        [("write_a", RowA as fn(u8) -> Thing, a), ("write_w", RowW as fn(u8) -> Thing, w)]
-    {
+    let zero = !w && !high && known.is_w_zero_behind(word, row);
+    for (which, thing, differs) in [
+        ("write_a", RowA as fn(u8) -> Thing, a),
+        ("write_a", RowBelow as fn(u8) -> Thing, below),
+        ("write_w", RowW as fn(u8) -> Thing, w),
+        ("write_w", RowHigh as fn(u8) -> Thing, high),
+    ] {
         let [old, new] = [written(word, which), written(other, which)];
         if old == new && !differs {
             continue;
@@ -74,9 +91,18 @@ pub fn differences(flow: &Flow, at: At, known: &Known, other: &Word) -> Option<D
         found.add([old, new].into_iter().flatten().filter(|row| !stays(row)).map(thing));
     }
     let gives = [word.get("give") as u8, other.get("give") as u8];
-    for give in gives.into_iter().filter(|give| (1..=12).contains(give)) {
+    // Of an edge that there is not nothing is taken.
+    let is_there = |give: &u8| (1..=12).contains(give) && !((4..=7).contains(give) && at.number > 2);
+    // Nor what has been taken.
+    let again = |give: u8| !a && !w && !word.is("steps") && known.given == Some((give, numbered(give, at)));
+    let takes = |give: &u8| is_there(give) && !again(*give);
+    for give in gives.into_iter().filter(takes) {
         let parts = given(give);
-        if gives[0] != gives[1] || a && parts.contains(&A) || w && parts.contains(&W) {
+        if gives[0] != gives[1]
+            || a && parts.contains(&A)
+            || w && parts.contains(&W)
+            || high && parts.contains(&High)
+        {
             // The prim before may be offered yet, or this one is.
             if !known.room || word.get("act") == code::DONE {
                 return None;
@@ -108,6 +134,19 @@ struct Sum {
     whole: bool,
 }
 
+impl Sum {
+    /// A above P is what it was: nothing is added to it, or a number below P to what is masked.
+    fn is_above(&self, known: &Known, pixel: i128) -> bool {
+        match self.operand {
+            None => matches!(self.base, 1 | 3),
+            Some((row, subtracts)) => {
+                let number = known.row(row);
+                self.base == 3 && !self.whole && !subtracts && number.low >= 0 && number.high < pixel
+            }
+        }
+    }
+}
+
 /// The sums of A and of W.
 fn sum(at: At, known: &Known, word: &Word, case: Case) -> (Sum, Sum) {
     let done = word.is("steps")
@@ -132,7 +171,7 @@ fn sum(at: At, known: &Known, word: &Word, case: Case) -> (Sum, Sum) {
     if !done {
         return (of(base_a(1)), of(base_w(1)));
     }
-    let row = word.row(at.number);
+    let row = known.read(word, at.number);
     let minus = word.is("minus") ^ (word.is("by_side") && case.right);
     let (subtracts, lowers) = if word.is("by_a") { (!case.negative, case.negative) } else { (minus, minus) };
     let (base, whole, is_zero) = (word.get("base"), word.is("whole"), known.row(row).is_zero());
@@ -149,8 +188,27 @@ fn sum(at: At, known: &Known, word: &Word, case: Case) -> (Sum, Sum) {
 }
 
 /// The word that follows, and what the jump does besides.
-fn jumps_alike(at: At, known: &Known, word: &Word, other: &Word, found: &mut Differing) -> Option<()> {
-    let [old, new] = [word, other].map(|word| Jump::of(at, known, word));
+fn jumps_alike(
+    flow: &Flow,
+    at: At,
+    known: &Known,
+    word: &Word,
+    other: &Word,
+    found: &mut Differing,
+) -> Option<()> {
+    let [mut old, mut new] = [word, other].map(|word| Jump::of(at, known, word));
+    for jump in [&mut old, &mut new] {
+        let (Next::At(target) | Next::By(_, target)) = &mut jump.next;
+        *target = flow.same(*target);
+        // No triangle is there for some clocks: a word more that culls changes nothing.
+        let ends = match jump.next {
+            Next::At(target) => flow.ends(target),
+            Next::By(by, target) => by == code::UNFIT && flow.ends(target) && flow.ends(at.place + 1),
+        };
+        if flow.ends(at.place) && at.place > 0 && ends {
+            jump.next = Next::At(0);
+        }
+    }
     if old.next != new.next {
         return None;
     }
@@ -207,6 +265,7 @@ impl Jump {
             code::WORDS | code::ROOM | code::SETTLE | code::DIGITS | code::AGAIN => Next::By(jump, 0),
             code::ZEROS | code::MORE => Next::By(jump, target),
             code::NEGATIVE => by((signs.len() == 1).then(|| signs[0])),
+            code::UNFIT if known.unfit => by(Some(true)),
             code::UNFIT => by(known.fits.then_some(false)),
             code::NO_UPPER => by(at.upper.map(|upper| !upper)),
             code::NO_LOWER => by(at.lower.map(|lower| !lower)),
@@ -243,8 +302,13 @@ fn acts_alike(
         return Some(());
     }
     let signs = known.before.signs();
+    // The number of the round before is set last.
+    let counts = at.number > 0 && [word, other].iter().all(|word| word.get("jump") == code::ROUNDS);
     for act in acts {
         match act {
+            code::BESIDE if counts => {}
+            act if counts && code::EDGES.contains(&act) => {}
+            code::UNSORTED if known.unsorted => {}
             code::UNSORTED => found.add([Order]),
             act if code::SWAPS.contains(&act) && signs == [false] => {}
             act if code::SWAPS.contains(&act) => found.add([Order]),

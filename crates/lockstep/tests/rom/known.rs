@@ -1,63 +1,13 @@
 //! What is known of a run of the program as it is, in front of each of its words: an interval of A, of each row's A, and flags.
 
+use super::range::{FAR, Range};
 use super::word::{Row, Word};
-use std::collections::BTreeMap;
 
 /// Rows of a lane.
 pub const ROWS: usize = 256;
 
-/// Bounds of a whole number, and whether it is a multiple of P for certain.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Range {
-    pub low: i128,
-    pub high: i128,
-    pub lines: bool,
-}
-
-/// Farther than any A lies.
-const FAR: i128 = 1 << 100;
-
-impl Range {
-    pub const ANY: Range = Range { low: -FAR, high: FAR, lines: false };
-    pub const ZERO: Range = Range { low: 0, high: 0, lines: true };
-
-    pub fn is_zero(self) -> bool {
-        (self.low, self.high) == (0, 0)
-    }
-
-    /// Whether it can be below 0, and 0 or above.
-    pub fn signs(self) -> Vec<bool> {
-        [true, false]
-            .into_iter()
-            .filter(|negative| if *negative { self.low < 0 } else { self.high >= 0 })
-            .collect()
-    }
-
-    /// The part below 0, or the other.
-    fn of_sign(self, negative: bool) -> Range {
-        match negative {
-            true => Range { high: self.high.min(-1), ..self },
-            false => Range { low: self.low.max(0), ..self },
-        }
-    }
-
-    fn join(self, other: Range) -> Range {
-        Range {
-            low: self.low.min(other.low),
-            high: self.high.max(other.high),
-            lines: self.lines && other.lines,
-        }
-    }
-
-    fn plus(self, other: Range, minus: bool) -> Range {
-        let (low, high) = if minus { (-other.high, -other.low) } else { (other.low, other.high) };
-        let cut = |number: i128| number.clamp(-FAR, FAR);
-        Range { low: cut(self.low + low), high: cut(self.high + high), lines: self.lines && other.lines }
-    }
-}
-
 /// No place of the program: the register of a call holds what it held.
-const NOWHERE: u32 = u32::MAX;
+pub const NOWHERE: u32 = u32::MAX;
 
 /// The place in the program, with what the path to it has decided.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -90,11 +40,55 @@ pub struct Known {
     pub skips: bool,
     /// No number has been found not to fit.
     pub fits: bool,
+    /// A number has been found not to fit.
+    pub unfit: bool,
     /// No prim is offered.
     pub room: bool,
+    /// The vertices stand in the order of the port.
+    pub unsorted: bool,
+    /// A is y of the vertex at this place, or its line.
+    pub y_of: Option<(bool, u8)>,
+    /// A and W are those of which this result of this number was given last.
+    pub given: Option<(u8, u8)>,
+    /// A is A of this row.
+    pub same: Option<u8>,
+    /// Of a row that row without its bits below P.
+    pub masked: Option<(u8, u8)>,
+    /// The digits that have come up are 0.
+    pub zeros: bool,
+    /// So they are behind the next word, if they are in front of it.
+    pub zeros_then: bool,
+    /// Words until the skipping of leading digits is over for certain.
+    pub settling: u8,
+    /// A check of the word before says in the next clock that a number does not fit.
+    pub checked: bool,
+    /// The factor that was loaded last is not below 0: f, g.
+    pub positive: [bool; 2],
+    /// Words since each of them was loaded; none: the digits behind the signs have begun.
+    pub since: [Option<u8>; 2],
+    /// Words in which the skipping of leading digits ends, from the one that begins it.
+    pub skipping: u8,
+    /// Digits of a factor.
+    pub digits: u32,
 }
 
 impl Known {
+    /// Words in which the skipping ends that begins with this factor g, where f is 0.
+    pub fn skipping_of(&self, g: Range) -> u8 {
+        match self.zeros && self.since == [None; 2] && g.low == g.high {
+            true => 2 + clocks_of_skipping(self.digits, first_digit(self.digits, g.low)),
+            false => self.skipping,
+        }
+    }
+
+    /// The row that a word reads.
+    pub fn read(&self, word: &Word, number: u32) -> Row {
+        match word.row(number) {
+            Row::Digits(table) if self.zeros => Row::At(table),
+            row => row,
+        }
+    }
+
     pub fn row(&self, row: Row) -> Range {
         match row {
             Row::At(row) => self.rows[usize::from(row)],
@@ -122,7 +116,7 @@ impl Known {
         if word.is("steps") { added && kept } else { self.w }
     }
 
-    fn join(&mut self, other: &Known, widen: bool) -> bool {
+    pub fn join(&mut self, other: &Known, widen: bool) -> bool {
         let was = self.clone();
         let one = |a: Range, b: Range| {
             let all = a.join(b);
@@ -149,7 +143,21 @@ impl Known {
         self.settled &= other.settled;
         self.skips |= other.skips;
         self.fits &= other.fits;
+        self.unfit &= other.unfit;
         self.room &= other.room;
+        self.unsorted &= other.unsorted;
+        self.y_of = self.y_of.filter(|place| other.y_of == Some(*place));
+        self.given = self.given.filter(|given| other.given == Some(*given));
+        self.same = self.same.filter(|row| other.same == Some(*row));
+        self.masked = self.masked.filter(|rows| other.masked == Some(*rows));
+        self.zeros &= other.zeros;
+        self.zeros_then &= other.zeros_then;
+        self.settling = self.settling.max(other.settling);
+        self.checked |= other.checked;
+        (0..2).for_each(|factor| self.positive[factor] &= other.positive[factor]);
+        (0..2).for_each(|factor| {
+            self.since[factor] = self.since[factor].zip(other.since[factor]).map(|(a, b)| a.min(b));
+        });
         *self != was
     }
 }
@@ -190,222 +198,19 @@ pub mod code {
     pub const DONE: u32 = 22;
 }
 
-/// The program, and what is known in front of its words.
-pub struct Flow {
-    pub words: Vec<Word>,
-    /// The number of the last round.
-    pub last_round: u32,
-    pub known: BTreeMap<At, Known>,
-    next: BTreeMap<At, Vec<At>>,
+/// Clocks of skipping, if so many shifts bring the first digit that differs from the sign behind it. It begins two clocks
+/// behind the word that loads a factor of so many digits.
+pub fn clocks_of_skipping(digits: u32, first: u32) -> u8 {
+    let (mut left, mut first, mut clocks) = (digits - 1, first, 1);
+    while first > 0 && left != 1 {
+        let shifted = if first >= 4 && left > 4 { 4 } else { 1 };
+        (left, first, clocks) = (left - shifted, first - shifted, clocks + 1);
+    }
+    clocks
 }
 
-impl Flow {
-    /// Follows the program from its first word; `rows` are those at the start, with the ranges of a vertex's words from 128 on.
-    pub fn new(words: Vec<Word>, last_round: u32, rows: Vec<Range>, written: &[bool]) -> Flow {
-        let start = At { place: 0, number: 0, link: NOWHERE, upper: None, lower: None, right: None };
-        let known = Known {
-            a: Range::ANY,
-            before: Range::ANY,
-            alike: false,
-            w: false,
-            // Memories start with 0, and no reset comes in between.
-            w_zero: (0..ROWS).map(|row| row < 128).collect(),
-            rows: rows
-                .iter()
-                .enumerate()
-                .map(|(i, row)| if i < 128 && written[i] { Range::ANY } else { *row })
-                .collect(),
-            // A reset ends the skipping.
-            settled: true,
-            skips: false,
-            fits: false,
-            room: false,
-        };
-        let mut flow = Flow { words, last_round, known: BTreeMap::new(), next: BTreeMap::new() };
-        let mut open: Vec<At> = Vec::new();
-        let mut visits: BTreeMap<At, u32> = BTreeMap::new();
-        // Each triangle leaves the number 0.
-        flow.known.insert(start, known);
-        open.push(start);
-        while let Some(at) = open.pop() {
-            let before = flow.known[&at].clone();
-            for (next, known) in flow.steps(at, &before) {
-                let count = visits.entry(next).or_default();
-                *count += 1;
-                let widen = *count > 40;
-                match flow.known.get_mut(&next) {
-                    Some(old) => {
-                        if old.join(&known, widen) {
-                            open.push(next);
-                        }
-                    }
-                    None => {
-                        flow.known.insert(next, known);
-                        open.push(next);
-                    }
-                }
-            }
-        }
-        let places = flow.known.iter().map(|(at, known)| {
-            let next: Vec<At> = flow.steps(*at, known).into_iter().map(|(on, _)| on).collect();
-            (*at, next)
-        });
-        flow.next = places.collect();
-        flow
-    }
-
-    /// The word at this place.
-    pub fn word(&self, at: At) -> &Word {
-        &self.words[at.place as usize]
-    }
-
-    /// The words that may follow a word.
-    pub fn next(&self, at: At) -> &[At] {
-        &self.next[&at]
-    }
-
-    /// The words that may follow a word, each with the values known there.
-    fn steps(&self, at: At, known: &Known) -> Vec<(At, Known)> {
-        let word = &self.words[at.place as usize];
-        let mut after = known.clone();
-        self.step(at, known, &mut after);
-        let mut on = at;
-        let act = word.get("act");
-        match act {
-            code::JUDGE => after.fits = true,
-            code::CHECK => after.fits = false,
-            code::LAST_ROUND => on.number = self.last_round,
-            code::BESIDE => on.number = 0,
-            code::DONE => after.room = false,
-            _ => {}
-        }
-        if let Some(edge) = code::EDGES.iter().position(|edge| *edge == act) {
-            on.number = edge as u32;
-        }
-        let mut starts = vec![(on, after)];
-        // From here on the paths of both values of the flag are followed apart.
-        for (number, flag) in [code::SIDE, code::UPPER, code::LOWER].into_iter().enumerate() {
-            if act == flag {
-                starts = starts
-                    .into_iter()
-                    .flat_map(|(on, after)| {
-                        known.before.signs().into_iter().map(move |negative| {
-                            let mut on = on;
-                            match number {
-                                0 => on.right = Some(negative),
-                                1 => on.upper = Some(!negative),
-                                _ => on.lower = Some(!negative),
-                            }
-                            (on, after.clone())
-                        })
-                    })
-                    .collect();
-            }
-        }
-        starts.into_iter().flat_map(|(on, after)| self.jumps(at, known, on, after)).collect()
-    }
-
-    fn jumps(&self, at: At, known: &Known, on: At, after: Known) -> Vec<(At, Known)> {
-        let word = &self.words[at.place as usize];
-        let (behind, target) = (at.place + 1, word.get("target"));
-        let to = |place: u32| (At { place, ..on }, after.clone());
-        match word.get("jump") {
-            code::WORDS => {
-                vec![to(behind)]
-            }
-            code::SETTLE => {
-                vec![(At { place: behind, ..on }, Known { settled: true, skips: false, ..after })]
-            }
-            code::ROOM => vec![(At { place: behind, ..on }, Known { room: true, ..after })],
-            code::DIGITS | code::AGAIN => vec![to(at.place), to(behind)],
-            code::ZEROS => vec![to(at.place), to(target), to(behind)],
-            code::MORE => vec![to(target), to(behind)],
-            code::NEGATIVE => {
-                let signs = known.before.signs();
-                let next = |negative: &bool| {
-                    let place = if *negative { target } else { behind };
-                    let mut after = after.clone();
-                    if known.alike && after.alike {
-                        after.a = after.a.of_sign(*negative);
-                        after.before = after.before.of_sign(*negative);
-                    }
-                    (At { place, ..on }, after)
-                };
-                signs.iter().map(next).collect()
-            }
-            code::UNFIT if known.fits => vec![to(behind)],
-            code::UNFIT => vec![to(target), to(behind)],
-            code::NO_UPPER | code::NO_LOWER => {
-                let upper = word.get("jump") == code::NO_UPPER;
-                let known = if upper { on.upper } else { on.lower };
-                let next = |walked: bool| {
-                    let mut next = At { place: if walked { behind } else { target }, ..on };
-                    *(if upper { &mut next.upper } else { &mut next.lower }) = Some(walked);
-                    (next, after.clone())
-                };
-                known.map_or(vec![true, false], |walked| vec![walked]).into_iter().map(next).collect()
-            }
-            code::ROUNDS if on.number > 0 => vec![(At { place: target, number: on.number - 1, ..on }, after)],
-            // The next triangle.
-            code::GOTO if target == 0 => {
-                vec![(
-                    At { place: 0, number: on.number, link: NOWHERE, upper: None, lower: None, right: None },
-                    after,
-                )]
-            }
-            code::GOTO => vec![to(target)],
-            code::CALL => vec![(At { place: target, link: behind, ..on }, after)],
-            code::RETURN => vec![(At { place: at.link, link: NOWHERE, ..on }, after)],
-            _ => vec![to(behind)],
-        }
-    }
-
-    /// The step and the values that it writes.
-    fn step(&self, at: At, known: &Known, after: &mut Known) {
-        let word = &self.words[at.place as usize];
-        after.skips = !known.settled;
-        if word.is("load_g") {
-            after.settled = false;
-        }
-        after.before = known.a;
-        after.alike = !word.is("steps");
-        let row = word.row(at.number);
-        if word.is("steps") {
-            let operand = if word.is("whole") { Range::ANY } else { known.row(row) };
-            let mut results: Vec<Range> = Vec::new();
-            for negative in known.a.signs() {
-                let a = known.a.of_sign(negative);
-                let base = match word.get("base") {
-                    0 => Range::ZERO,
-                    1 => a,
-                    2 => a.plus(a, false),
-                    _ => Range { low: (a.low - (1 << 40)).max(-FAR), lines: true, ..a },
-                };
-                // What is masked keeps its sign.
-                let base = if word.get("base") == 3 && !negative { Range { low: 0, ..base } } else { base };
-                for right in at.right.map_or(vec![true, false], |right| vec![right]) {
-                    let minus = word.is("minus") ^ (word.is("by_side") && right);
-                    let minus = if word.is("by_a") { !negative } else { minus };
-                    let stays = match word.get("only") {
-                        1 => vec![!negative],
-                        2 => vec![negative],
-                        3 => at.upper.map_or(vec![true, false], |upper| vec![upper]),
-                        4 => vec![!right],
-                        _ => vec![false],
-                    };
-                    results
-                        .extend(stays.iter().map(|stays| if *stays { a } else { base.plus(operand, minus) }));
-                }
-            }
-            after.a = results.into_iter().reduce(Range::join).unwrap_or(Range::ANY);
-        }
-        after.w = known.is_w_zero_behind(word, row);
-        let written = usize::from(word.written(at.number));
-        if word.is("write_a") {
-            after.rows[written] = after.a;
-        }
-        if word.is("write_w") {
-            after.w_zero[written] = after.w;
-        }
-    }
+/// Shifts that bring the first digit of this factor that differs from its sign behind it.
+pub fn first_digit(digits: u32, factor: i128) -> u32 {
+    let magnitude = if factor < 0 { !factor } else { factor };
+    digits.saturating_sub(1 + (128 - magnitude.leading_zeros()))
 }

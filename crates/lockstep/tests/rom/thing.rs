@@ -6,11 +6,17 @@ use std::collections::BTreeMap;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Thing {
     A,
+    /// A, but only its bits below P: its sign is the right one.
+    Below,
     W,
+    /// W, but not its low bits that stand for a row of A.
+    High,
     /// The sign of A that control sees.
     Sign,
     RowA(u8),
+    RowBelow(u8),
     RowW(u8),
+    RowHigh(u8),
     F,
     G,
     Left,

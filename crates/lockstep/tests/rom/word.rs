@@ -17,6 +17,11 @@ impl Word {
         Word(fields.iter().map(part).collect())
     }
 
+    /// All other parts are alike.
+    pub fn differs_in(&self, other: &Word, parts: &[&str]) -> bool {
+        self.0.iter().all(|(name, part)| parts.contains(name) || other.0[name] == *part)
+    }
+
     pub fn get(&self, name: &str) -> u32 {
         self.0[name]
     }
@@ -34,7 +39,7 @@ impl Word {
             3 => Row::At((row | number) as u8),
             // The picture's: this machine draws no map.
             4 => Row::At(row as u8 & !1),
-            mode @ (5 | 6 | 7) => {
+            mode @ 5..=7 => {
                 let place = match (mode, edge) {
                     (6, 2) => 1,
                     (6, _) => 0,
@@ -42,7 +47,7 @@ impl Word {
                     (7, _) => 2,
                     _ => row >> 4 & 3,
                 };
-                let part = if row & 15 == 15 { number + 2 & 15 } else { row & 15 };
+                let part = if row & 15 == 15 { (number + 2) & 15 } else { row & 15 };
                 match place {
                     3 => Row::At(0xb0 | part as u8),
                     _ => Row::Vertex(place as u8, part as u8),

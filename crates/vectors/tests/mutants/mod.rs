@@ -17,6 +17,7 @@ use edgewalk_machine::{
 };
 use edgewalk_netlist::Module;
 use edgewalk_netlist::mutate::mutants;
+use edgewalk_tool::Stop;
 use edgewalk_vectors::prove::{Proof, prove};
 use edgewalk_vectors::{Interface, Unit, design};
 use traces::traces;
@@ -341,7 +342,11 @@ fn tally(machine: &Plan, unit: Unit, first: usize, step: usize) -> Tally {
             tally.killed += 1;
             continue;
         }
-        let proof = prove(&interface, &netlist, mutant, unit != common::SETUP).expect("Yosys is installed");
+        let proof = match prove(&interface, &netlist, mutant, unit != common::SETUP) {
+            // On a busy machine the prover may reach the limit of a tool first.
+            Err(Stop::TimeLimit { .. }) => Proof::Unknown,
+            proof => proof.expect("Yosys is installed"),
+        };
         let verdict = match proof {
             Proof::Equivalent => {
                 tally.equivalent += 1;
