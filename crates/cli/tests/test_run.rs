@@ -1,4 +1,4 @@
-//! `tests/run` with a build and a Python part of our own: its exit code is that of the suites and of the Python part.
+//! `tests/run` and `tests/suites` with a build, test programs and a Python part of our own: the exit code is that of the parts.
 #![allow(clippy::unwrap_used)] // a test that unwraps nothing reports it
 
 use crate::support::root;
@@ -21,7 +21,8 @@ fn run(build: &str, suites: &str, python: &str) -> (Option<i32>, String) {
     fs::create_dir(at.join("tests")).unwrap();
     fs::copy(root().join("tests/run"), at.join("tests/run")).unwrap();
     script(&at.join("tests/python"), python);
-    script(&at.join("bin/cargo"), &format!("case \"$*\" in *--no-run*) {build};; *) {suites};; esac"));
+    script(&at.join("tests/suites"), suites);
+    script(&at.join("bin/cargo"), build);
     fs::create_dir(at.join("temporary")).unwrap();
     let path = format!("{}:{}", at.join("bin").display(), std::env::var("PATH").unwrap());
     let mut command = Command::new(at.join("tests/run"));
@@ -51,5 +52,75 @@ fn the_exit_code_of_the_whole_run_is_that_of_its_parts() {
         let complains = text.contains("tests/run: tests/python failed");
         assert_eq!(complains, python.starts_with("exit"), "{text}");
         assert_eq!(text.contains("tests/run: suites "), build == "true", "{text}");
+    }
+}
+
+/// The exit code of `tests/suites` and what it prints, where these test programs are built and the examples end as given.
+fn suites(programs: &[&str], examples: &str) -> (Option<i32>, String) {
+    let folder = tempfile::tempdir().unwrap();
+    let at = folder.path();
+    let mut artifacts = String::new();
+    for (number, body) in programs.iter().enumerate() {
+        let (crate_, program) =
+            (at.join(format!("a crate {number}")), at.join(format!("a program {number}")));
+        script(&crate_.join("tests/main.rs"), "");
+        script(&program, body);
+        // A program that is no test is named by cargo too.
+        for (program, test) in [(&program, true), (&at.join("absent"), false)] {
+            artifacts += &format!(
+                "{{\"manifest_path\":\"{0}/Cargo.toml\",\"target\":{{\"src_path\":\"{0}/tests/main.rs\",\"test\":true}},\
+                 \"profile\":{{\"test\":{test}}},\"features\":[],\"executable\":\"{1}\"}}\n",
+                crate_.display(),
+                program.display()
+            );
+        }
+    }
+    fs::write(at.join("artifacts"), artifacts).unwrap();
+    let named = format!("cat '{}'", at.join("artifacts").display());
+    let cargo = format!(
+        "case \"$*\" in *'--here --no-run'*) {named};; *'--here --doc'*) {examples};; *) exit 9;; esac"
+    );
+    script(&at.join("bin/cargo"), &cargo);
+    fs::create_dir(at.join("temporary")).unwrap();
+    let path = format!("{}:{}", at.join("bin").display(), std::env::var("PATH").unwrap());
+    let mut command = Command::new(root().join("tests/suites"));
+    command.arg("--here").env("PATH", path).env("TMPDIR", at.join("temporary"));
+    let output = command.output().unwrap();
+    assert_eq!(fs::read_dir(at.join("temporary")).unwrap().count(), 0, "temporary folders are left");
+    let text = [output.stdout, output.stderr].concat();
+    (output.status.code(), String::from_utf8(text).unwrap())
+}
+
+#[test]
+fn each_test_program_runs_and_each_failure_is_told() {
+    let passed = "echo \"in $(basename \"$PWD\"), $(basename \"$CARGO_MANIFEST_DIR\")\"";
+    let killed = "echo half a line; kill -9 $$";
+    let cases: [(&[&str], &str, i32, &[&str]); 7] = [
+        (&[passed; 5], "echo the examples", 0, &[]),
+        (&[passed, "exit 101", passed], "true", 1, &["a crate 1 tests/main.rs: exit code 101"]),
+        (&[passed, passed, killed], "true", 1, &["a crate 2 tests/main.rs: exit code 137"]),
+        (&[passed], "exit 101", 1, &["documentation: exit code 101"]),
+        (
+            &["exit 1", "exit 2"],
+            "exit 3",
+            1,
+            &["a crate 0 tests/main.rs: exit code 1", "documentation: exit code 3"],
+        ),
+        (&[], "true", 1, &["cargo names no test program"]),
+        (&["sleep 1; exit 4", passed, passed], "true", 1, &["a crate 0 tests/main.rs: exit code 4"]),
+    ];
+    for (programs, examples, code, told) in cases {
+        let (ended, text) = suites(programs, examples);
+        assert_eq!(ended, Some(code), "{programs:?}, examples `{examples}`: {text}");
+        for told in told {
+            assert!(text.contains(told), "{told}: {text}");
+        }
+        for (number, body) in programs.iter().enumerate() {
+            let title = format!("Running a crate {number} tests/main.rs\n");
+            assert_eq!(text.matches(&title).count(), 1, "{title}: {text}");
+            let own = format!("{title}in a crate {number}, a crate {number}\n");
+            assert_eq!(text.contains(&own), *body == passed, "{own}: {text}");
+        }
+        assert_eq!(text.contains("the examples\n"), examples.starts_with("echo"), "{text}");
     }
 }
