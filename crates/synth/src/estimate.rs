@@ -7,7 +7,9 @@
 //! Flip-flops, carry cells and memory blocks are those of Yosys' `synth_ice40`, as its passes are followed one by one.
 //! Look-up tables and clock are a model's, whose factors were fitted to machines that were synthesised.
 
+mod ports;
 mod words;
+mod states;
 mod narrow;
 mod graph;
 mod arithmetic;
@@ -20,7 +22,12 @@ mod build;
 mod cover;
 mod merge;
 mod delay;
+mod ways;
 mod structure;
+mod module;
+mod reads;
+mod compose;
+mod kept;
 mod of_part;
 mod fit;
 mod measured;
@@ -29,5 +36,6 @@ mod device;
 pub use delay::{Delays, Path};
 pub use device::{Fits, fits};
 pub use fit::{Errors, Estimate, Figure, Fit};
+pub use kept::Kept;
 pub use measured::{Measured, Sample};
 pub use structure::{Structure, UnitTables};
