@@ -4,7 +4,8 @@
 //!  netlist ─> words ─> logic, carry chains, flip-flops, memory blocks ─> cover of 4-input tables ─> counts, longest path
 //!                                                                              measured machines ─> factors, delays, errors
 //! ```
-//! Flip-flops, carry cells and memory blocks are those of Yosys' `synth_ice40`, as its passes are followed one by one.
+//! Each unit goes through this by itself, with what its neighbours tell of its ports; a unit that several machines have does so
+//! once ([`Kept`]). Flip-flops, carry cells and memory blocks are those of Yosys' `synth_ice40`, as its passes are followed one by one.
 //! Look-up tables and clock are a model's, whose factors were fitted to machines that were synthesised.
 
 mod ports;

@@ -8,6 +8,7 @@ use super::graph::{Lit, Node, QuickMap, TRUE};
 use super::merge::{Merges, merges};
 use super::narrow::narrow;
 use super::ports::{Seen, View};
+use super::states::state_machines;
 use super::ways::{Ways, ways};
 use super::words::Words;
 use edgewalk_netlist::Netlist;
@@ -60,6 +61,7 @@ impl Logic {
     /// Of a netlist, seen so.
     pub fn of(netlist: &Netlist, view: &View) -> Logic {
         let mut words = Words::of(netlist, view);
+        words.machines = state_machines(&words);
         narrow(&mut words);
         let built = build(&words);
         Logic { words, built }

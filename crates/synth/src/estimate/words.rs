@@ -3,7 +3,6 @@
 
 use super::graph::{Quick, QuickMap};
 use super::ports::{Seen, View};
-use super::states::state_machines;
 use edgewalk_netlist::netlist::{Netlist, NodeId, Source};
 use edgewalk_netlist::ops::Op;
 use std::hash::{Hash, Hasher};
@@ -88,7 +87,7 @@ pub(super) struct Words {
     pub chosen: Vec<bool>,
     /// By bit: an operator that works bit by bit gives it, a choice among them.
     pub bitwise: Vec<bool>,
-    /// Registers that are kept a flip-flop a state.
+    /// Registers that are kept a flip-flop a state; none before they are looked for.
     pub machines: Vec<StateMachine>,
     /// The instances of the top module, behind the top module's own name.
     pub units: Vec<String>,
@@ -146,7 +145,6 @@ impl Words {
         reader.state();
         reader.words.count_users();
         reader.words.find_choices();
-        reader.words.machines = state_machines(&reader.words);
         reader.words
     }
 
