@@ -18,11 +18,11 @@ use edgewalk_netlist::Netlist;
 pub(super) enum Gives {
     /// Nothing.
     Own,
-    /// It never changes.
+    /// The bit never changes.
     Constant(bool),
-    /// It is this input bit.
+    /// The bit is that of an input.
     Input(u32),
-    /// It is equal to an output bit before it.
+    /// An output bit before is equal.
     Same(u32),
 }
 

@@ -5,9 +5,9 @@
 pub(super) enum Seen {
     /// Nothing is known of it.
     Own,
-    /// It never changes.
+    /// The bit never changes.
     Constant(bool),
-    /// At an input: the same as an input bit before it. At an output: the same as an output bit before it.
+    /// Another input bit is the same.
     Same(u32),
 }
 
