@@ -74,7 +74,7 @@ pub use depth::depth;
 pub use dither::dither;
 pub use edge::edge;
 pub use lamp::lamp;
-pub use machine::{assemble, engine, machine};
+pub use machine::{assemble, engine, join, machine};
 pub use memory::memory;
 pub use normal::normal;
 pub use pixel::pixel;

@@ -30,7 +30,7 @@ pub fn machine(plan: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
 pub fn engine(plan: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
     let units: Vec<_> = units(plan).into_iter().filter(|(unit, _)| unit.name != "setup").collect();
     let m = Module::new("edgewalk_engine", "The units that draw, without SETUP.");
-    let units = place(&m, plan, &units)?;
+    let units = place(&m, plan, built(plan, &units)?);
     units.connect_inputs();
     units.join();
     units.connect_outputs();
@@ -42,14 +42,22 @@ fn units(plan: &Plan) -> Vec<(&'static UnitSpec, Build)> {
     plan.units().map(|unit| (unit, build(unit))).collect()
 }
 
-/// Joins these units, in the order the data flows, as their declarations say: a link to the link of the next unit, held values,
-/// levels and status by their names. What is not joined is a port of the machine.
+/// Builds these units and joins them, as [`join`].
 ///
 /// # Errors
 /// Those of the units, and inputs of theirs that nothing drives.
 pub fn assemble(plan: &Plan, units: &[(&UnitSpec, Build)]) -> Result<Arc<Netlist>, BuildErrors> {
-    let m = Module::new("edgewalk", &doc(plan, units));
-    let units = place(&m, plan, units)?;
+    join(plan, built(plan, units)?)
+}
+
+/// Joins these units, in the order the data flows, as their declarations say: a link to the link of the next unit, held values,
+/// levels and status by their names. What is not joined is a port of the machine.
+///
+/// # Errors
+/// Inputs of the units that nothing drives.
+pub fn join(plan: &Plan, units: Vec<(&UnitSpec, Arc<Netlist>)>) -> Result<Arc<Netlist>, BuildErrors> {
+    let m = Module::new("edgewalk", &doc(plan, &units));
+    let units = place(&m, plan, units);
     units.connect_inputs();
     units.join();
 
@@ -63,15 +71,22 @@ pub fn assemble(plan: &Plan, units: &[(&UnitSpec, Build)]) -> Result<Arc<Netlist
     m.finish()
 }
 
-fn place<'m>(m: &'m Module, plan: &Plan, units: &[(&UnitSpec, Build)]) -> Result<Joined<'m>, BuildErrors> {
-    let placed = units.iter().map(|(unit, build)| {
-        let instance = m.instance(&format!("u_{}", unit.name), &build(plan)?);
-        Ok(Unit { outside: Interface::new(m, (unit.ports)(plan)), instance })
-    });
-    Ok(Joined(placed.collect::<Result<_, _>>()?))
+fn built<'u>(
+    plan: &Plan,
+    units: &[(&'u UnitSpec, Build)],
+) -> Result<Vec<(&'u UnitSpec, Arc<Netlist>)>, BuildErrors> {
+    units.iter().map(|(unit, build)| Ok((*unit, build(plan)?))).collect()
 }
 
-fn doc(plan: &Plan, units: &[(&UnitSpec, Build)]) -> String {
+fn place<'m>(m: &'m Module, plan: &Plan, units: Vec<(&UnitSpec, Arc<Netlist>)>) -> Joined<'m> {
+    let placed = units.into_iter().map(|(unit, netlist)| {
+        let instance = m.instance(&format!("u_{}", unit.name), &netlist);
+        Unit { outside: Interface::new(m, (unit.ports)(plan)), instance }
+    });
+    Joined(placed.collect())
+}
+
+fn doc(plan: &Plan, units: &[(&UnitSpec, Arc<Netlist>)]) -> String {
     let ports: Vec<_> = units.iter().map(|(unit, _)| (unit.name, (unit.ports)(plan))).collect();
     let drawn = if plan.polygon.is_there() { "triangles and polygons" } else { "triangles" };
     format!(

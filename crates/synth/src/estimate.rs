@@ -4,10 +4,13 @@
 //!  netlist ─> words ─> logic, carry chains, flip-flops, memory blocks ─> cover of 4-input tables ─> counts, longest path
 //!                                                                              measured machines ─> factors, delays, errors
 //! ```
-//! Flip-flops, carry cells and memory blocks are those of Yosys' `synth_ice40`, as its passes are followed one by one.
+//! Each unit goes through this by itself, with what its neighbours tell of its ports; a unit that several machines have does so
+//! once ([`Kept`]). Flip-flops, carry cells and memory blocks are those of Yosys' `synth_ice40`, as its passes are followed one by one.
 //! Look-up tables and clock are a model's, whose factors were fitted to machines that were synthesised.
 
+mod ports;
 mod words;
+mod states;
 mod narrow;
 mod graph;
 mod arithmetic;
@@ -20,7 +23,12 @@ mod build;
 mod cover;
 mod merge;
 mod delay;
+mod ways;
 mod structure;
+mod module;
+mod reads;
+mod compose;
+mod kept;
 mod of_part;
 mod fit;
 mod measured;
@@ -29,5 +37,6 @@ mod device;
 pub use delay::{Delays, Path};
 pub use device::{Fits, fits};
 pub use fit::{Errors, Estimate, Figure, Fit};
+pub use kept::Kept;
 pub use measured::{Measured, Sample};
 pub use structure::{Structure, UnitTables};

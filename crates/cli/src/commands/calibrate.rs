@@ -13,7 +13,7 @@ use crate::scratch::Scratch;
 use crate::verdict::Verdict;
 use anyhow::{Context, Result, anyhow};
 use edgewalk_machine::Plan;
-use edgewalk_synth::estimate::{Delays, Fit, Measured, Sample, Structure};
+use edgewalk_synth::estimate::{Delays, Fit, Kept, Measured, Sample, Structure};
 use edgewalk_synth::{Cache, Design, Flow, Part, Target};
 use rayon::prelude::*;
 use std::path::{Path, PathBuf};
@@ -152,22 +152,36 @@ fn plan(line: &str) -> Result<Plan> {
     MachineArgs::alone(&line.split_whitespace().collect::<Vec<_>>().join(","))
 }
 
-fn structure(of: &Measured, delays: &Delays) -> Result<Structure> {
+/// The part of the machine that a row is of.
+fn measured(of: &Measured) -> Result<(Plan, Part)> {
     let plan = plan(&of.machine)?;
     let part = Part::named(&of.part, &plan)?;
-    part.structure(&plan, delays)
+    Ok((plan, part))
+}
+
+fn structure(of: &Measured, delays: &Delays) -> Result<Structure> {
+    let (plan, part) = measured(of)?;
+    part.structure(&plan, &Kept::new(*delays))
         .map_err(|error| anyhow!("{}: the netlist cannot be built: {error}", of.machine))
+}
+
+/// Whether the netlist is as it was when the row was written.
+fn is_fresh(of: &Measured) -> Result<bool> {
+    let (plan, part) = measured(of)?;
+    Ok(part.shape(&plan).is_ok_and(|shape| shape == of.shape))
 }
 
 /// Rows with what their netlists come to today, and how many rows are of other netlists.
 fn samples(rows: Vec<Measured>) -> Result<(Vec<Sample>, usize)> {
     let delays = Fit::before().delays;
     let all = rows.len();
+    let fresh = rows.par_iter().map(is_fresh).collect::<Result<Vec<_>>>()?;
+    let rows: Vec<Measured> =
+        rows.into_iter().zip(fresh).filter(|(_, fresh)| *fresh).map(|(row, _)| row).collect();
     let structures = rows.par_iter().map(|row| structure(row, &delays)).collect::<Result<Vec<_>>>()?;
     let samples: Vec<Sample> = rows
         .into_iter()
         .zip(structures)
-        .filter(|(measured, structure)| structure.shape == measured.shape)
         .map(|(measured, structure)| Sample { measured, structure })
         .collect();
     let stale = all - samples.len();
@@ -193,8 +207,8 @@ impl Bench<'_> {
     ) -> Result<bool> {
         let design_part = Part::named(part, plan).map_err(|error| anyhow!("{line}: {error}"))?;
         let built = |error| anyhow!("{line}: the netlist cannot be built: {error}");
-        let structure = design_part.structure(plan, &Fit::before().delays).map_err(built)?;
-        let same = |row: &Measured| row.part == part && row.shape == structure.shape;
+        let shape = design_part.shape(plan).map_err(built)?;
+        let same = |row: &Measured| row.part == part && row.shape == shape;
         // An engine that many machines have is measured once.
         if rows.iter().any(|row| same(row) && (row.machine == line || part != "machine")) {
             return Ok(false);
@@ -225,7 +239,7 @@ impl Bench<'_> {
         rows.push(Measured {
             machine: line.to_owned(),
             part: part.to_owned(),
-            shape: structure.shape,
+            shape,
             held_out,
             cells: [cells.lut4, cells.carry, cells.ff, cells.ram],
             packed: outcome.packed.map(|packed| packed.design),

@@ -10,7 +10,7 @@ use crate::machine_args::MachineArgs;
 use crate::verdict::Verdict;
 use anyhow::{Result, anyhow};
 use edgewalk_machine::Plan;
-use edgewalk_synth::estimate::{Estimate, Figure, Fit, Fits, fits};
+use edgewalk_synth::estimate::{Estimate, Figure, Fit, Fits, Kept, fits};
 use edgewalk_synth::{Part, Target, memories};
 use serde::Serialize;
 use std::fmt::Write as _;
@@ -76,21 +76,22 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
         }
     };
     let fit = Fit::known();
+    let kept = Kept::new(fit.delays);
     let mut rows = Vec::new();
     for (name, plan) in &machines {
         let part = Part::named(&args.unit, plan).map_err(|error| anyhow!("--unit {}: {error}", args.unit))?;
+        let built = |error| anyhow!("{name}: the netlist cannot be built: {error}");
         let since = Instant::now();
-        let structure = part
-            .structure(plan, &fit.delays)
-            .map_err(|error| anyhow!("{name}: the netlist cannot be built: {error}"))?;
+        let structure = part.structure(plan, &kept).map_err(built)?;
         let estimate = fit.estimate(&structure);
+        let milliseconds = since.elapsed().as_secs_f64() * 1000.0;
         rows.push(Row {
             name: if name.is_empty() { "default".to_owned() } else { name.clone() },
             machine: plan.hash(),
-            shape: format!("{:016x}", structure.shape),
+            shape: format!("{:016x}", part.shape(plan).map_err(built)?),
             fits: devices.iter().map(|device| fits(&estimate, memories(plan, part), device)).collect(),
             estimate,
-            milliseconds: since.elapsed().as_secs_f64() * 1000.0,
+            milliseconds,
         });
     }
     let report = Report { unit: args.unit.clone(), errors: fit.errors, machines: rows };

@@ -1,10 +1,10 @@
 //! From cells to logic: flip-flops, memories, carry chains and what lies between, round after round until no flip-flop is
 //! known to be constant or a twin.
 
-use super::builder::{BlockMemory, Builder, FlipFlop, Known, Known1};
+use super::builder::{BlockMemory, Builder, FlipFlop, Known, Known1, UNKNOWN};
 use super::graph::{FALSE, Graph, Lit, Node, QuickMap, TRUE};
 use super::sat::possible;
-use super::words::{Bit, ONE, Words, ZERO};
+use super::words::{Bit, ONE, UNREAD, Words, ZERO};
 use std::collections::hash_map::Entry;
 
 /// A module as flip-flops, memory blocks and the logic between.
@@ -12,6 +12,9 @@ pub(super) struct Built {
     pub graph: Graph,
     pub flip_flops: Vec<FlipFlop>,
     pub memories: Vec<BlockMemory>,
+    /// By bit of the inputs; [`UNKNOWN`] where no operator reads it.
+    pub inputs: Vec<Lit>,
+    /// In the order of [`Words::outputs`].
     pub outputs: Vec<Lit>,
 }
 
@@ -146,7 +149,9 @@ impl Builder<'_> {
             }
         }
         let outputs = self.words.outputs.clone().iter().map(|bit| self.lit(*bit)).collect();
+        let lit = |bit: &Bit| if *bit == UNREAD { UNKNOWN } else { self.lits[*bit as usize] };
+        let inputs = self.words.inputs.iter().map(lit).collect();
         let Builder { graph, flip_flops, memories, bits, .. } = self;
-        (Built { graph, flip_flops, memories, outputs }, bits)
+        (Built { graph, flip_flops, memories, inputs, outputs }, bits)
     }
 }

@@ -86,8 +86,8 @@ pub(super) struct Guard {
     pub passes: Vec<(Lit, Vec<Lit>)>,
 }
 
-/// A bit that has no literal yet.
-const UNKNOWN: Lit = Lit::MAX;
+/// A bit that has no literal.
+pub(super) const UNKNOWN: Lit = Lit::MAX;
 
 impl<'w> Builder<'w> {
     pub fn new(words: &'w Words, known: &'w Known, guarded: &'w [bool]) -> Builder<'w> {

@@ -139,7 +139,7 @@ pub(super) fn live(built: &Built) -> Vec<bool> {
 }
 
 /// What the logic between has to give: outputs, what drives live flip-flops, memories and carry chains.
-fn roots(built: &Built, live: &[bool]) -> Vec<Lit> {
+pub(super) fn roots(built: &Built, live: &[bool]) -> Vec<Lit> {
     let mut roots = built.outputs.clone();
     let mut memories = vec![false; built.memories.len()];
     let mut carries = vec![false; built.graph.carries.len()];

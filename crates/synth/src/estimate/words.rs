@@ -2,6 +2,7 @@
 //! gone. Equal operators on equal operands are one cell, as Yosys' `opt_merge` makes them.
 
 use super::graph::{Quick, QuickMap};
+use super::ports::{Seen, View};
 use edgewalk_netlist::netlist::{Netlist, NodeId, Source};
 use edgewalk_netlist::ops::Op;
 use std::hash::{Hash, Hasher};
@@ -11,6 +12,8 @@ use std::ops::Range;
 pub(super) type Bit = u32;
 pub(super) const ZERO: Bit = 0;
 pub(super) const ONE: Bit = 1;
+/// No bit: that of an input that no operator reads.
+pub(super) const UNREAD: Bit = Bit::MAX;
 
 /// An operator that is no wiring.
 #[derive(Clone, Debug)]
@@ -70,7 +73,12 @@ pub(super) struct Words {
     pub operands: Vec<Bit>,
     pub registers: Vec<Register>,
     pub memories: Vec<Memory>,
+    /// By bit of the inputs that the module has, if it is known: [`UNREAD`] where nobody reads it.
+    pub inputs: Vec<Bit>,
+    /// Bits of outputs that somebody reads, as often as they are read.
     pub outputs: Vec<Bit>,
+    /// By bit of [`Words::outputs`]: which bit of all outputs it is.
+    pub wanted: Vec<u32>,
     /// How many bits there are, constants included.
     pub bits: usize,
     /// By bit: how many ports of cells, registers and outputs read it.
@@ -79,7 +87,7 @@ pub(super) struct Words {
     pub chosen: Vec<bool>,
     /// By bit: an operator that works bit by bit gives it, a choice among them.
     pub bitwise: Vec<bool>,
-    /// Registers that are kept a flip-flop a state.
+    /// Registers that are kept a flip-flop a state; none before they are looked for.
     pub machines: Vec<StateMachine>,
     /// The instances of the top module, behind the top module's own name.
     pub units: Vec<String>,
@@ -98,7 +106,13 @@ struct Scope<'n> {
     backwards: bool,
 }
 
-struct Reader<'n> {
+struct Reader<'n, 'v> {
+    /// The top module's ports.
+    view: &'v View,
+    /// Where the bits of each input begin in [`Words::inputs`].
+    inputs: Vec<usize>,
+    /// By instance of a top module that is seen without its instances: where the bits of each output begin there.
+    instances: Vec<Vec<usize>>,
     scopes: Vec<Scope<'n>>,
     words: Words,
     /// By node: where its bits stand among the operands.
@@ -111,9 +125,12 @@ struct Reader<'n> {
 }
 
 impl Words {
-    /// Of the module with all that is in it.
-    pub fn of(netlist: &Netlist) -> Words {
+    /// Of the module, seen so.
+    pub fn of(netlist: &Netlist, view: &View) -> Words {
         let mut reader = Reader {
+            view,
+            inputs: Vec::new(),
+            instances: Vec::new(),
             scopes: Vec::new(),
             words: Words { bits: 2, units: vec![netlist.name.clone()], ..Words::default() },
             known: Vec::new(),
@@ -122,16 +139,12 @@ impl Words {
             memories: QuickMap::default(),
             waiting: Vec::new(),
         };
+        reader.number_inputs(netlist);
         reader.scope(netlist, None, 0);
-        for output in &netlist.outputs {
-            let bits = reader.read(0, output.driver);
-            let bits = reader.words.operands[bits].to_vec();
-            reader.words.outputs.extend(bits);
-        }
+        reader.outputs(netlist);
         reader.state();
         reader.words.count_users();
         reader.words.find_choices();
-        reader.words.machines = state_machines(&reader.words);
         reader.words
     }
 
@@ -204,13 +217,76 @@ impl Words {
     }
 }
 
-impl<'n> Reader<'n> {
+impl<'n> Reader<'n, '_> {
+    fn number_inputs(&mut self, netlist: &Netlist) {
+        let mut count = 0;
+        let mut place = |width: u32| {
+            count += width as usize;
+            count - width as usize
+        };
+        self.inputs = netlist.inputs.iter().map(|input| place(netlist.width(input.node))).collect();
+        if self.view.outside {
+            self.instances = netlist
+                .instances
+                .iter()
+                .map(|of| of.module.outputs.iter().map(|out| place(of.module.width(out.driver))).collect())
+                .collect();
+        }
+        self.words.inputs = vec![UNREAD; count];
+    }
+
+    /// Outputs that somebody reads, and behind them what instances that are not looked into read.
+    fn outputs(&mut self, netlist: &'n Netlist) {
+        let outside = netlist.instances.iter().take(if self.view.outside { usize::MAX } else { 0 });
+        let drivers = netlist.outputs.iter().map(|output| output.driver);
+        let mut place = 0;
+        for driver in drivers.chain(outside.flat_map(|instance| instance.connections.iter().copied())) {
+            let width = netlist.width(driver) as usize;
+            if (place..place + width).any(|bit| self.view.readers(bit) > 0) {
+                let bits = self.read(0, driver);
+                for (at, bit) in self.words.operands[bits].to_vec().into_iter().enumerate() {
+                    for _ in 0..self.view.readers(place + at) {
+                        self.words.outputs.push(bit);
+                        self.words.wanted.push((place + at) as u32);
+                    }
+                }
+            }
+            place += width;
+        }
+    }
+
+    /// The bits of an input, or of an output of an instance that is not looked into.
+    fn given(&mut self, first: usize, width: usize) -> Range<usize> {
+        let bits: Vec<Bit> = (first..first + width).map(|place| self.given_bit(place)).collect();
+        self.keep(&bits)
+    }
+
+    fn given_bit(&mut self, place: usize) -> Bit {
+        if self.words.inputs[place] == UNREAD {
+            self.words.inputs[place] = match self.view.seen(place) {
+                Seen::Constant(value) => Bit::from(value),
+                Seen::Same(other) => self.given_bit(other as usize),
+                Seen::Own => {
+                    self.words.bits += 1;
+                    self.words.bits as Bit - 1
+                }
+            };
+        }
+        self.words.inputs[place]
+    }
+
     fn scope(&mut self, netlist: &'n Netlist, parent: Option<(usize, usize)>, unit: u8) -> usize {
         let index = self.scopes.len();
         let base = self.known.len();
         self.known.resize(base + netlist.nodes.len(), None);
-        let backwards = parent.is_some_and(|(around, _)| !self.scopes[around].backwards);
+        let backwards = match parent {
+            Some((around, _)) => !self.scopes[around].backwards,
+            None => self.view.inside,
+        };
         self.scopes.push(Scope { netlist, parent, children: Vec::new(), base, unit, backwards });
+        if self.view.outside {
+            return index;
+        }
         for (place, instance) in netlist.instances.iter().enumerate() {
             let unit = if parent.is_none() {
                 self.words.units.push(instance.name.trim_start_matches("u_").to_owned());
@@ -244,7 +320,7 @@ impl<'n> Reader<'n> {
                     let driver = self.scopes[parent].netlist.instances[instance].connections[*port];
                     self.read(parent, driver)
                 }
-                None => self.fresh(width),
+                None => self.given(self.inputs[*port], width),
             },
             Source::Constant { value, .. } => {
                 let bits: Vec<Bit> = (0..width).map(|bit| (value >> bit & 1) as Bit).collect();
@@ -258,6 +334,9 @@ impl<'n> Reader<'n> {
             Source::MemoryRead { memory, port } => {
                 self.waiting.push((scope, *memory, *port));
                 self.fresh(width)
+            }
+            Source::InstanceOutput { instance, output } if self.view.outside => {
+                self.given(self.instances[*instance][*output], width)
             }
             Source::InstanceOutput { instance, output } => {
                 let driver = netlist.instances[*instance].module.outputs[*output].driver;
@@ -402,86 +481,4 @@ impl<'n> Reader<'n> {
         let place = self.read(scope, node);
         self.words.operands[place.start]
     }
-}
-
-/// States that are given a flip-flop each; more are counted in binary.
-const ONE_HOT: usize = 32;
-
-/// As `fsm_detect` finds them.
-fn state_machines(words: &Words) -> Vec<StateMachine> {
-    let cells: QuickMap<Bit, &Cell> = words.cells.iter().map(|cell| (cell.first, cell)).collect();
-    let mut found = Vec::new();
-    for (register, of) in words.registers.iter().enumerate().filter(|(_, of)| of.width >= 2) {
-        let own: Vec<Bit> = (of.first..of.first + of.width as Bit).collect();
-        let mut states = Vec::new();
-        states.extend(of.reset);
-        let mut tree = Vec::new();
-        let fits = of
-            .updates
-            .iter()
-            .all(|(_, value)| choice_of_states(words, &cells, words.at(value), &own, &mut states, &mut tree));
-        states.sort_unstable();
-        states.dedup();
-        if fits && (2..=ONE_HOT).contains(&states.len()) && is_only_compared(words, &own, &tree) {
-            found.push(StateMachine { register, states });
-        }
-    }
-    found
-}
-
-/// Whether a word is a constant, the register itself, or a choice of such; its constants and choices are collected.
-fn choice_of_states(
-    words: &Words,
-    cells: &QuickMap<Bit, &Cell>,
-    word: &[Bit],
-    own: &[Bit],
-    states: &mut Vec<u128>,
-    tree: &mut Vec<Bit>,
-) -> bool {
-    if word.iter().all(|bit| *bit <= ONE) {
-        states.push(word.iter().rev().fold(0, |value, bit| value << 1 | u128::from(*bit)));
-        return true;
-    }
-    if word == own || tree.contains(&word[0]) {
-        return true;
-    }
-    let Some(cell) = cells.get(&word[0]).filter(|cell| cell.op == Op::Mux && cell.width == word.len()) else {
-        return false;
-    };
-    if !word.iter().enumerate().all(|(at, bit)| *bit == cell.first + at as Bit) {
-        return false;
-    }
-    tree.push(word[0]);
-    cell.operands[1..].iter().all(|place| choice_of_states(words, cells, words.at(place), own, states, tree))
-}
-
-/// Whether nobody reads any bit of the register but comparisons of all of it with constants, and its own choices.
-fn is_only_compared(words: &Words, own: &[Bit], tree: &[Bit]) -> bool {
-    let reads = |bits: &[Bit]| bits.iter().any(|bit| own.contains(bit));
-    let cell = |cell: &Cell| {
-        let [a, b] = match &cell.operands[..] {
-            [a, b] => [words.at(a), words.at(b)],
-            operands => {
-                return tree.contains(&cell.first) || !operands.iter().any(|place| reads(words.at(place)));
-            }
-        };
-        let fixed = |word: &[Bit]| word.iter().all(|bit| *bit <= ONE);
-        let compared =
-            matches!(cell.op, Op::Eq | Op::Ne) && ((a == own && fixed(b)) || (b == own && fixed(a)));
-        compared || !(reads(a) || reads(b))
-    };
-    let register = |of: &Register| {
-        of.first == own[0]
-            || !of.updates.iter().any(|(when, value)| reads(when.as_slice()) || reads(words.at(value)))
-    };
-    let memory = |of: &Memory| {
-        let written = of.writes.iter().any(|(enable, address, data)| {
-            reads(&[*enable]) || reads(words.at(address)) || reads(words.at(data))
-        });
-        !written && !of.reads.iter().any(|(enable, address, _)| reads(&[*enable]) || reads(words.at(address)))
-    };
-    !reads(&words.outputs)
-        && words.cells.iter().all(cell)
-        && words.registers.iter().all(register)
-        && words.memories.iter().all(memory)
 }

@@ -1,0 +1,232 @@
+//! A machine from its units: each is worked out by itself, with what the others say of its ports, round after round
+//! until nothing new is said.
+
+use super::delay::Path;
+use super::graph::QuickMap;
+use super::kept::{Kept, Unit};
+use super::module::{Gives, Logic, Module, OFTEN};
+use super::ports::{Seen, View};
+use super::structure::{Structure, UnitTables};
+use super::ways::{Way, longer};
+use edgewalk_netlist::Netlist;
+use std::sync::Arc;
+
+/// Rounds at most.
+const ROUNDS: usize = 32;
+
+/// Where a bit comes from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+enum Source {
+    Constant(bool),
+    /// An input bit of the machine.
+    Outside(u32),
+    /// An output bit of a module.
+    Of(u32, u32),
+}
+
+struct Composed<'k> {
+    kept: &'k Kept,
+    /// What joins the units, then the units.
+    modules: Vec<Unit>,
+    /// By module: where its bits begin among the outputs of what joins them, and among its inputs.
+    first: Vec<[usize; 2]>,
+    /// By input bit of what joins the units: the module that drives it. Inputs of the machine have none.
+    drivers: Vec<u32>,
+    /// By output bit of what joins the units: the module that reads it. Outputs of the machine have none.
+    takers: Vec<u32>,
+    /// By input bit of what joins the units: outputs that only hand it on.
+    wires: Vec<Vec<u32>>,
+    gives: Vec<Vec<Gives>>,
+    reads: Vec<Vec<u8>>,
+    found: Vec<Arc<Module>>,
+}
+
+/// The machine of this netlist, whose instances are these units.
+pub(super) fn compose(kept: &Kept, joints: Unit, units: Vec<Unit>) -> Structure {
+    let mut composed = Composed::new(kept, joints, units);
+    composed.settle();
+    composed.structure()
+}
+
+fn bits(netlist: &Netlist) -> [usize; 2] {
+    let inputs = netlist.inputs.iter().map(|input| netlist.width(input.node) as usize);
+    let outputs = netlist.outputs.iter().map(|output| netlist.width(output.driver) as usize);
+    [inputs.sum(), outputs.sum()]
+}
+
+impl<'k> Composed<'k> {
+    fn new(kept: &'k Kept, joints: Unit, units: Vec<Unit>) -> Composed<'k> {
+        let [inputs, outputs] = bits(&joints.netlist);
+        let (mut drivers, mut takers) = (vec![0; inputs], vec![0; outputs]);
+        let mut first = vec![[0, 0]];
+        let mut ports = Vec::new();
+        for (place, unit) in units.iter().enumerate() {
+            let [inputs, outputs] = bits(&unit.netlist);
+            first.push([takers.len(), drivers.len()]);
+            takers.resize(takers.len() + inputs, place as u32 + 1);
+            drivers.resize(drivers.len() + outputs, place as u32 + 1);
+            ports.push([inputs, outputs]);
+        }
+        ports.insert(0, [drivers.len(), takers.len()]);
+        let modules = [joints].into_iter().chain(units).collect();
+        let gives = ports.iter().map(|[_, outputs]| vec![Gives::Own; *outputs]).collect();
+        let reads = ports.iter().map(|[inputs, _]| vec![1; *inputs]).collect();
+        let wires = vec![Vec::new(); drivers.len()];
+        Composed { kept, modules, first, drivers, takers, wires, gives, reads, found: Vec::new() }
+    }
+
+    fn settle(&mut self) {
+        let joints = View { outside: true, ..View::default() };
+        let ports = self.kept.ports(&self.modules[0], &joints, &mut None);
+        for (bit, gives) in &ports.gives {
+            self.gives[0][*bit as usize] = *gives;
+            if let Gives::Input(input) = gives {
+                self.wires[*input as usize].push(*bit);
+            }
+        }
+        let mut views: Vec<View> = vec![View::default(); self.modules.len()];
+        let mut logic: Vec<Option<Logic>> = self.modules.iter().map(|_| None).collect();
+        for round in 0..ROUNDS {
+            let mut news = false;
+            for place in 0..self.modules.len() {
+                // What nobody reads is told from the last unit to the first, and the rest from the first to the last.
+                let place = if round % 2 == 0 { self.modules.len() - 1 - place } else { place };
+                let view = self.view(place);
+                if view == views[place] {
+                    continue;
+                }
+                news = true;
+                let ports = self.kept.ports(&self.modules[place], &view, &mut logic[place]);
+                for (bit, gives) in &ports.gives {
+                    self.gives[place][*bit as usize] = *gives;
+                }
+                self.reads[place].clone_from(&ports.reads);
+                views[place] = view;
+            }
+            if !news {
+                break;
+            }
+        }
+        let modules = self.modules.iter().zip(views).zip(logic);
+        self.found = modules.map(|((unit, view), logic)| self.kept.module(unit, view, logic)).collect();
+    }
+
+    /// Where an input bit of a module comes from.
+    fn source(&self, mut module: usize, mut input: usize) -> Source {
+        loop {
+            let (giver, mut output) = match module {
+                0 if self.drivers[input] == 0 => return Source::Outside(input as u32),
+                0 => (self.drivers[input] as usize, input - self.first[self.drivers[input] as usize][1]),
+                unit => (0, self.first[unit][0] + input),
+            };
+            (module, input) = loop {
+                match self.gives[giver][output] {
+                    Gives::Own => return Source::Of(giver as u32, output as u32),
+                    Gives::Constant(value) => return Source::Constant(value),
+                    Gives::Input(input) => break (giver, input as usize),
+                    Gives::Same(other) => output = other as usize,
+                }
+            };
+        }
+    }
+
+    fn view(&self, module: usize) -> View {
+        let inputs = self.reads[module].len();
+        let mut first: QuickMap<Source, u32> = QuickMap::with_capacity_and_hasher(inputs, Default::default());
+        let mut seen = |input: usize| match self.source(module, input) {
+            Source::Constant(value) => Seen::Constant(value),
+            // What joins the units takes a bit from the unit that computes it, not from one that passes it on.
+            Source::Of(unit @ 1.., output) if module == 0 => {
+                match self.first[unit as usize][1] as u32 + output {
+                    other if other == input as u32 => Seen::Own,
+                    other => Seen::Same(other),
+                }
+            }
+            source => match *first.entry(source).or_insert(input as u32) {
+                other if other == input as u32 => Seen::Own,
+                other => Seen::Same(other),
+            },
+        };
+        let inputs = (0..inputs).map(&mut seen).collect();
+        let taken = |output: usize| match self.takers[output] as usize {
+            0 => 1,
+            taker => self.reads[taker][output - self.first[taker][0]],
+        };
+        let readers = |output: usize| match module {
+            0 if matches!(self.gives[0][output], Gives::Input(_)) => 0,
+            0 => taken(output),
+            unit => {
+                let input = self.first[unit][1] + output;
+                let wires: u8 =
+                    self.wires[input].iter().map(|wire| taken(*wire as usize)).fold(0, u8::saturating_add);
+                (self.reads[0][input] + wires).min(OFTEN)
+            }
+        };
+        let readers = (0..self.gives[module].len()).map(readers).collect();
+        View { inputs, readers, outside: module == 0, inside: module > 0 }
+    }
+
+    fn structure(&self) -> Structure {
+        let sum = |of: fn(&Module) -> u64| self.found.iter().map(|module| of(module)).sum();
+        let tables = self.modules.iter().zip(&self.found).map(|(unit, found)| UnitTables {
+            unit: unit.name.clone(),
+            tables: found.tables.iter().map(|(_, tables)| tables).sum(),
+        });
+        Structure {
+            whole: true,
+            tables: tables.collect(),
+            carry: sum(|module| module.carry),
+            ff: sum(|module| module.ff),
+            ram: sum(|module| module.ram),
+            lone_ff: sum(|module| module.lone_ff),
+            lone_carry: sum(|module| module.lone_carry),
+            path: self.longest(),
+        }
+    }
+
+    /// The longest way from register to register, through as many modules as it takes.
+    fn longest(&self) -> Path {
+        let mut known = QuickMap::default();
+        let mut longest: Option<Way> = None;
+        for (place, found) in self.found.iter().enumerate() {
+            longer(&mut longest, found.ways.within);
+            for (input, end) in &found.ways.ends {
+                if let Some(way) = self.arrival(self.source(place, *input as usize), &mut known) {
+                    longer(&mut longest, way.then(end));
+                }
+            }
+        }
+        let outputs = self.takers.iter().enumerate().filter(|(_, taker)| **taker == 0);
+        for (output, _) in outputs {
+            if let Some(way) = self.arrival(Source::Of(0, output as u32), &mut known) {
+                longer(&mut longest, way);
+            }
+        }
+        longest.unwrap_or_default().path
+    }
+
+    /// The longest way to a bit.
+    fn arrival(&self, source: Source, known: &mut QuickMap<Source, Option<Way>>) -> Option<Way> {
+        let Source::Of(module, mut output) = source else { return Some(Way::default()) };
+        if let Some(way) = known.get(&source) {
+            return *way;
+        }
+        match self.gives[module as usize][output as usize] {
+            Gives::Constant(_) => return None,
+            Gives::Input(input) => {
+                return self.arrival(self.source(module as usize, input as usize), known);
+            }
+            Gives::Same(other) => output = other,
+            Gives::Own => {}
+        }
+        let ways = &self.found[module as usize].ways;
+        let mut longest = ways.begins.get(&output).copied();
+        for (input, through) in ways.through.get(&output).into_iter().flatten() {
+            if let Some(way) = self.arrival(self.source(module as usize, *input as usize), known) {
+                longer(&mut longest, way.then(through));
+            }
+        }
+        known.insert(source, longest);
+        longest
+    }
+}

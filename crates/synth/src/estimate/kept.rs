@@ -1,0 +1,167 @@
+//! Modules that were worked out, for machines that have them too.
+
+use super::delay::Delays;
+use super::graph::{Quick, QuickMap};
+use super::module::{Logic, Module, Ports};
+use super::ports::View;
+use super::reads::keys_read;
+use super::structure::{Structure, UnitTables};
+use edgewalk_machine::Plan;
+use edgewalk_netlist::netlist::Source;
+use edgewalk_netlist::{BuildErrors, Netlist};
+use std::hash::{Hash, Hasher};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+
+/// A module of a machine.
+#[derive(Clone)]
+pub(super) struct Unit {
+    pub name: String,
+    pub netlist: Arc<Netlist>,
+    /// [`number`] of the netlist.
+    number: u64,
+}
+
+impl Unit {
+    pub fn new(name: &str, netlist: Arc<Netlist>) -> Unit {
+        Unit { name: name.to_owned(), number: number(&netlist), netlist }
+    }
+}
+
+/// Modules of the machines that were estimated so far. A module that several machines have is worked out once.
+pub struct Kept {
+    delays: Delays,
+    ports: Mutex<QuickMap<(u64, View), Arc<Ports>>>,
+    modules: Mutex<QuickMap<(u64, View), Arc<Module>>>,
+    /// By name and keys.
+    units: Mutex<QuickMap<(&'static str, Vec<u32>), Unit>>,
+}
+
+impl Kept {
+    /// Nothing is kept so far.
+    #[must_use]
+    pub fn new(delays: Delays) -> Kept {
+        Kept { delays, ports: Mutex::default(), modules: Mutex::default(), units: Mutex::default() }
+    }
+
+    /// Of a module with all that is in it.
+    pub(crate) fn alone(&self, netlist: &Netlist, name: &str) -> Structure {
+        let module = Logic::of(netlist, &View::default()).module(&self.delays);
+        let mut tables: Vec<UnitTables> = module
+            .tables
+            .iter()
+            .map(|(unit, tables)| UnitTables { unit: unit.clone(), tables: *tables })
+            .collect();
+        if let Some(top) = tables.first_mut() {
+            name.clone_into(&mut top.unit);
+        }
+        let ways = &module.ways;
+        let ports = ways.ends.iter().map(|(_, way)| *way).chain(ways.begins.values().copied());
+        let through = ways.through.values().flatten().map(|(_, way)| *way);
+        let longest = ports.chain(through).fold(ways.within, |a, b| if b.ns > a.ns { b } else { a });
+        Structure {
+            whole: false,
+            tables,
+            carry: module.carry,
+            ff: module.ff,
+            ram: module.ram,
+            lone_ff: module.lone_ff,
+            lone_carry: module.lone_carry,
+            path: longest.path,
+        }
+    }
+
+    /// What a module says of its ports; its logic stays with the caller if it had to be worked out.
+    pub(super) fn ports(&self, unit: &Unit, view: &View, logic: &mut Option<Logic>) -> Arc<Ports> {
+        *logic = None;
+        let key = (unit.number, view.clone());
+        let known = open(&self.ports).get(&key).cloned();
+        known.unwrap_or_else(|| {
+            let made = Logic::of(&unit.netlist, view);
+            let ports = Arc::new(made.ports(view));
+            *logic = Some(made);
+            open(&self.ports).insert(key, ports.clone());
+            ports
+        })
+    }
+
+    /// What a module comes to; `logic` is that of the module if it was worked out.
+    pub(super) fn module(&self, unit: &Unit, view: View, logic: Option<Logic>) -> Arc<Module> {
+        let key = (unit.number, view);
+        let known = open(&self.modules).get(&key).cloned();
+        known.unwrap_or_else(|| {
+            let logic = logic.unwrap_or_else(|| Logic::of(&unit.netlist, &key.1));
+            let module = Arc::new(logic.module(&self.delays));
+            open(&self.modules).insert(key, module.clone());
+            module
+        })
+    }
+
+    /// A unit of a machine, built if no machine before had the same.
+    pub(super) fn unit(
+        &self,
+        name: &'static str,
+        plan: &Plan,
+        build: impl FnOnce() -> Built,
+    ) -> Result<Unit, BuildErrors> {
+        let key = (name, keys_read(name, plan));
+        let known = open(&self.units).get(&key).cloned();
+        known.map_or_else(
+            || {
+                let unit = Unit::new(name, build()?);
+                open(&self.units).insert(key, unit.clone());
+                Ok(unit)
+            },
+            Ok,
+        )
+    }
+}
+
+type Built = Result<Arc<Netlist>, BuildErrors>;
+
+fn open<T>(kept: &Mutex<T>) -> MutexGuard<'_, T> {
+    kept.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// A number for what a netlist computes; names and comments are no part of it.
+fn number(netlist: &Netlist) -> u64 {
+    let mut hash = Quick::default();
+    put(netlist, &mut hash);
+    hash.finish()
+}
+
+fn put(netlist: &Netlist, hash: &mut Quick) {
+    for node in &netlist.nodes {
+        node.width.hash(hash);
+        match &node.source {
+            Source::Input(port) => (0u8, port).hash(hash),
+            Source::Constant { value, .. } => (1u8, value).hash(hash),
+            Source::Op(op, operands) => (2u8, op, operands).hash(hash),
+            Source::Wire(wire) => (3u8, netlist.wires[*wire].driver).hash(hash),
+            Source::Register(register) => (4u8, register).hash(hash),
+            Source::MemoryRead { memory, port } => (5u8, memory, port).hash(hash),
+            Source::InstanceOutput { instance, output } => (6u8, instance, output).hash(hash),
+        }
+    }
+    for register in &netlist.registers {
+        (register.node, register.reset, register.updates.len()).hash(hash);
+        register.updates.iter().for_each(|update| (update.when, update.value).hash(hash));
+    }
+    for memory in &netlist.memories {
+        (memory.words, memory.width, memory.writes.len(), memory.reads.len()).hash(hash);
+        for port in &memory.writes {
+            (port.en, port.addr, port.data).hash(hash);
+        }
+        for port in &memory.reads {
+            (port.en, port.addr, port.node).hash(hash);
+        }
+        if memory.writes.is_empty() {
+            (0..memory.words).for_each(|at| memory.contents.word(memory.width, at).hash(hash));
+        }
+    }
+    netlist.inputs.iter().for_each(|input| input.node.hash(hash));
+    netlist.outputs.iter().for_each(|output| output.driver.hash(hash));
+    for instance in &netlist.instances {
+        instance.connections.hash(hash);
+        put(&instance.module, hash);
+    }
+}

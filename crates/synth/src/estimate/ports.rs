@@ -1,0 +1,35 @@
+//! What is known at the ports of a module that stands among others.
+
+/// A bit at a port.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(super) enum Seen {
+    /// Nothing is known of it.
+    Own,
+    /// The bit never changes.
+    Constant(bool),
+    /// Another input bit is the same.
+    Same(u32),
+}
+
+/// How a module is looked at. Bits are numbered through the ports in their order.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Hash)]
+pub(super) struct View {
+    /// By input bit; beyond the end nothing is known.
+    pub inputs: Vec<Seen>,
+    /// By output bit, how often it is read; beyond the end once.
+    pub readers: Vec<u8>,
+    /// Instances are not looked into: their outputs are inputs of the module, and their inputs its outputs.
+    pub outside: bool,
+    /// The module is an instance of another.
+    pub inside: bool,
+}
+
+impl View {
+    pub fn seen(&self, input: usize) -> Seen {
+        self.inputs.get(input).copied().unwrap_or(Seen::Own)
+    }
+
+    pub fn readers(&self, output: usize) -> u8 {
+        self.readers.get(output).copied().unwrap_or(1)
+    }
+}

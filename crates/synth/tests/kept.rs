@@ -1,0 +1,67 @@
+//! Estimates of machines one after the other are those of each machine by itself.
+#![allow(clippy::unwrap_used)] // a test that unwraps nothing reports it
+
+use edgewalk_machine::key::{Domain, Key};
+use edgewalk_machine::keys::KEYS;
+use edgewalk_machine::{Machine, Plan};
+use edgewalk_synth::Part;
+use edgewalk_synth::estimate::{Fit, Kept};
+use rand::seq::IndexedRandom;
+use rand::{Rng, SeedableRng};
+use rand_pcg::Pcg64Mcg;
+
+fn draw(rng: &mut Pcg64Mcg, domain: Domain) -> u32 {
+    match domain {
+        Domain::Range(low, high) => rng.random_range(low..=high),
+        Domain::OneOf(list) => *list.choose(rng).unwrap(),
+        Domain::Word(words) => rng.random_range(0..words.len() as u32),
+    }
+}
+
+/// The machine with another value of this key, if it can be built.
+fn other(plan: &Plan, key: &Key, rng: &mut Pcg64Mcg) -> Option<Plan> {
+    let mut machine: Machine = (**plan).clone();
+    (key.set)(&mut machine, draw(rng, key.domain));
+    machine.plan().ok().filter(|other| **other != **plan)
+}
+
+/// Small machines, that have most units together.
+const BASES: [&[(&str, &str)]; 3] = [
+    &[],
+    &[("blend.kind", "constant"), ("shadow.light", "perspective"), ("shadow.project", "serial")],
+    &[("shade.kind", "fast-phong"), ("setup.kind", "parallel"), ("edge.kind", "slope")],
+];
+
+/// Each key in turn has another value, so that a unit that reads the key and is thought not to is the one of the
+/// machine before.
+#[test]
+fn kept_units_change_no_estimate() {
+    let rng = &mut Pcg64Mcg::seed_from_u64(34);
+    let delays = Fit::known().delays;
+    let kept = Kept::new(delays);
+    let (mut machines, mut changed) = (0, 0);
+    for settings in BASES {
+        let mut base = Machine::preset("up5k").unwrap();
+        settings.iter().for_each(|(key, value)| base.set(key, value).unwrap());
+        let base = base.plan().unwrap();
+        let mut before = Part::MACHINE.structure(&base, &kept).unwrap();
+        for key in KEYS {
+            let Some(plan) = other(&base, key, rng) else { continue };
+            let [with, without] =
+                [&kept, &Kept::new(delays)].map(|kept| Part::MACHINE.structure(&plan, kept).unwrap());
+            assert_eq!(
+                with,
+                without,
+                "{} = {} with units kept\n{}",
+                key.name,
+                key.show(&plan),
+                base.to_toml()
+            );
+            machines += 1;
+            changed += usize::from(with != before);
+            before = with;
+        }
+    }
+    println!("{machines} machines, {changed} of them unlike the one before");
+    assert!(machines > 100 && changed > 60);
+}
