@@ -18,18 +18,41 @@ fn draw(rng: &mut Pcg64Mcg, domain: Domain) -> u32 {
     }
 }
 
-/// The machine with another value of this key, if it can be built.
+/// The machine with another value of this key, if one of some draws can be built.
 fn other(plan: &Plan, key: &Key, rng: &mut Pcg64Mcg) -> Option<Plan> {
-    let mut machine: Machine = (**plan).clone();
-    (key.set)(&mut machine, draw(rng, key.domain));
-    machine.plan().ok().filter(|other| **other != **plan)
+    let mut drawn = (0..8).filter_map(|_| {
+        let mut machine: Machine = (**plan).clone();
+        (key.set)(&mut machine, draw(rng, key.domain));
+        machine.plan().ok()
+    });
+    drawn.find(|other| **other != **plan)
 }
 
 /// Small machines, that have most units together.
-const BASES: [&[(&str, &str)]; 3] = [
+const BASES: [&[(&str, &str)]; 5] = [
     &[],
     &[("blend.kind", "constant"), ("shadow.light", "perspective"), ("shadow.project", "serial")],
-    &[("shade.kind", "fast-phong"), ("setup.kind", "parallel"), ("edge.kind", "slope")],
+    &[
+        ("shade.kind", "fast-phong"),
+        ("setup.kind", "parallel"),
+        ("edge.kind", "slope"),
+        ("shade.colour", "multiply"),
+        ("texture.kind", "nearest"),
+    ],
+    &[
+        ("setup.kind", "parallel"),
+        ("polygon.edges", "8"),
+        ("polygon.lines", "yes"),
+        ("shadow.light", "parallel"),
+        ("shadow.gate", "scale"),
+        ("dither.bits", "4"),
+    ],
+    &[
+        ("setup.kind", "parallel"),
+        ("polygon.edges", "8"),
+        ("polygon.values", "bilinear"),
+        ("edge.kind", "slope"),
+    ],
 ];
 
 /// Each key in turn has another value, so that a unit that reads the key and is thought not to is the one of the
