@@ -203,16 +203,14 @@ impl Check<'_> {
             Direction::Out => (&self.dut.outputs, Direction::In, "out", "in"),
         };
         let names: Vec<&str> = interface.links_of(direction).map(|link| link.name).collect();
-        for name in given.keys().filter(|name| !names.contains(&name.as_str())) {
-            let key = format!("{way}.{name}");
-            let found = format!("{} has no channel {way} {name}", interface.unit.name());
-            if interface.links_of(other).any(|link| link.name == name) {
-                let error = self.error(key, found, names.join(", "));
-                return Err(error.advised(format!("{name} is a channel {opposite}: [{opposite}.{name}]")));
-            }
-            return Err(DutError::unknown(&self.dut.file, key, found, name, names));
+        let Some(name) = given.keys().find(|name| !names.contains(&name.as_str())) else { return Ok(()) };
+        let key = format!("{way}.{name}");
+        let found = format!("{} has no channel {way} {name}", interface.unit.name());
+        if interface.links_of(other).any(|link| link.name == name) {
+            let error = self.error(key, found, names.join(", "));
+            return Err(error.advised(format!("{name} is a channel {opposite}: [{opposite}.{name}]")));
         }
-        Ok(())
+        Err(DutError::unknown(&self.dut.file, key, found, name, names))
     }
 
     /// `[memories]` names memories of the unit.
