@@ -44,9 +44,9 @@ typedef struct EdgewalkRun EdgewalkRun;
 extern "C" {
 #endif // __cplusplus
 
-// Returns the error message of the last failed call in this thread. The message names the fault, the permitted values
-// and the remedy. The message is empty before the first failure. The pointer is valid until the next call in this thread
-// that fails.
+// Returns the error message of the last failed call in this thread. The message names the fault, the permitted
+// values and the remedy. The message is empty before the first failure. The pointer is valid until the next call in
+// this thread that fails.
 const char *edgewalk_message(void);
 
 // The version of the library, as in `0.1.0`.

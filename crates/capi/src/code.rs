@@ -54,9 +54,9 @@ pub fn guarded(work: impl FnOnce() -> Result<(), Failure>) -> EdgewalkCode {
     code
 }
 
-/// Returns the error message of the last failed call in this thread. The message names the fault, the permitted values
-/// and the remedy. The message is empty before the first failure. The pointer is valid until the next call in this thread
-/// that fails.
+/// Returns the error message of the last failed call in this thread. The message names the fault, the permitted
+/// values and the remedy. The message is empty before the first failure. The pointer is valid until the next call in
+/// this thread that fails.
 #[unsafe(no_mangle)]
 pub extern "C" fn edgewalk_message() -> *const c_char {
     MESSAGE.with(|kept| kept.borrow().as_ptr())
