@@ -157,7 +157,7 @@ pub fn polygonal() -> Vec<(&'static str, Plan)> {
 }
 
 /// Twelve machines with their names: adders, segments, lanes, radices, word lengths, fills, edges, hazard policies, and in
-/// two of them channels of the user's own, more than their adders or lanes divide. Four have a sequenced SETUP, of 1, 2 and
+/// two of them channels of the user's own, more than their adders or lanes divide. Six have a sequenced SETUP, of 1, 2 and
 /// 4 lanes, one of them in four rounds of channels.
 pub fn twelve() -> Vec<(&'static str, Plan)> {
     let s = Machine::clone(&small());
