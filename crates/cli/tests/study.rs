@@ -217,6 +217,39 @@ fn kinds(name: &str) -> String {
     table(header, body)
 }
 
+/// What tells the machines of [`kinds_by_format`] apart.
+const KEYS_OF_FRONT: [&str; 3] = ["setup.kind", "setup.lanes", "formats.z_bits"];
+
+/// Kinds and lanes of SETUP by bits of z. The last column names the scenes on whose front of look-up tables and time the
+/// machine lies, among the machines of the same bits.
+fn kinds_by_format(name: &str) -> String {
+    let rows = rows(name);
+    let machine = |row: &Row| KEYS_OF_FRONT.map(|key| row[key].clone());
+    // None where the device has no place for the machine.
+    let us = |row: &Row| row["mhz_median"].parse::<f64>().ok().map(|mhz| number(row, "cycles") / mhz);
+    let beats = |other: &Row, row: &Row| {
+        let rivals = ["input", "formats.z_bits"].iter().all(|key| row[*key] == other[*key]);
+        let (Some(its), Some(own)) = (us(other), us(row)) else { return false };
+        let tables = [other, row].map(|row| number(row, "lut4"));
+        rivals && its <= own && tables[0] <= tables[1] && (its, tables[0]) != (own, tables[1])
+    };
+    let on_front = |row: &Row| us(row).is_some() && !rows.iter().any(|other| beats(other, row));
+    let figures = ["kind", "lanes", "bits of z", "LUT4", "MHz"].map(str::to_owned).into_iter();
+    let header = figures.chain(SCENES.map(|scene| format!("{scene}, us"))).chain(["front of".to_owned()]);
+    let body = rows.iter().filter(|row| row["input"] == SCENES[0]).map(|first| {
+        let at = |scene: &str| {
+            let is = |row: &&Row| row["input"] == scene && machine(row) == machine(first);
+            rows.iter().find(is).unwrap_or_else(|| panic!("{scene}, {:?}", machine(first)))
+        };
+        let clock = first["mhz_median"].parse::<f64>().map_or("-".to_owned(), |mhz| format!("{mhz:.1}"));
+        let times = SCENES.map(|scene| us(at(scene)).map_or("-".to_owned(), |us| format!("{us:.0}")));
+        let fronts: Vec<&str> = SCENES.into_iter().filter(|scene| on_front(at(scene))).collect();
+        let figures = machine(first).into_iter().chain([first["lut4"].clone(), clock]);
+        figures.chain(times).chain([fronts.join(", ")]).collect()
+    });
+    table(header, body.collect::<Vec<_>>())
+}
+
 /// The clock over the seeds.
 fn placed(row: &Row) -> String {
     match row["mhz_median"].parse::<f64>() {
@@ -411,6 +444,7 @@ fn the_tables_are_those_of_the_data() {
         ),
         ("setup", setup()),
         ("setup_kinds", kinds("setup_kinds")),
+        ("setup_front", kinds_by_format("setup_front")),
         (
             "setup_cells",
             cells("setup_cells", &[("setup.lanes", "lanes"), ("cycles", "cycles of torus-knot")]),
