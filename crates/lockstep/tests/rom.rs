@@ -290,8 +290,8 @@ enum Verdict {
     Open,
 }
 
-/// Of the bits that are proved to be dead, or that do not care, each so manieth is tried with triangles; of those that are
-/// found the longer proof is tried with as many.
+/// One in this many dead or don't-care bits is tried with triangles too. The longer proof is tried on one in this many of
+/// the bits that triangles find.
 const SAMPLE: usize = 16;
 
 /// What the bits of a word are tried with.

@@ -54,7 +54,7 @@ pub fn differences(flow: &Flow, at: At, known: &Known, other: &Word) -> Option<D
                 let above = [&old.0, &new.0].iter().all(|sum| sum.is_above(known, flow.pixel));
                 a |= old.0 != new.0 && !above;
                 below |= old.0 != new.0 && above;
-                // Without what is raised.
+                // The sum without its raised operand.
                 let low = |sum: &Sum| {
                     let operand = sum.operand.filter(|(row, _)| !known.is_w_zero(*row));
                     Sum { operand, more: (None, sum.more.1), ..*sum }
@@ -135,7 +135,7 @@ struct Sum {
 }
 
 impl Sum {
-    /// A above P is what it was: nothing is added to it, or a number below P to what is masked.
+    /// The bits of A above P stay. Nothing is added to A, or A is masked and the number added is below P.
     fn is_above(&self, known: &Known, pixel: i128) -> bool {
         match self.operand {
             None => matches!(self.base, 1 | 3),

@@ -89,7 +89,7 @@ impl<'k> Composed<'k> {
         for round in 0..ROUNDS {
             let mut news = false;
             for place in 0..self.modules.len() {
-                // What nobody reads is told from the last unit to the first, and the rest from the first to the last.
+                // Unread bits are told from the last unit to the first. Constant and equal bits are told the other way.
                 let place = if round % 2 == 0 { self.modules.len() - 1 - place } else { place };
                 let view = self.view(place);
                 if view == views[place] {

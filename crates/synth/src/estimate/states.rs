@@ -55,7 +55,7 @@ fn choice_of_states(
     cell.operands[1..].iter().all(|place| choice_of_states(words, cells, words.at(place), own, states, tree))
 }
 
-/// Whether nobody reads any bit of the register but comparisons of all of it with constants, and its own choices.
+/// The register has two kinds of readers only: comparisons of the whole register with constants, and its own choices.
 fn is_only_compared(words: &Words, own: &[Bit], tree: &[Bit]) -> bool {
     let reads = |bits: &[Bit]| bits.iter().any(|bit| own.contains(bit));
     let cell = |cell: &Cell| {

@@ -73,7 +73,7 @@ pub(super) struct Words {
     pub operands: Vec<Bit>,
     pub registers: Vec<Register>,
     pub memories: Vec<Memory>,
-    /// By bit of the inputs that the module has, if it is known: [`UNREAD`] where nobody reads it.
+    /// The bit of each input bit of the module, by port; [`UNREAD`] if no operator reads the input bit.
     pub inputs: Vec<Bit>,
     /// Bits of outputs that somebody reads, as often as they are read.
     pub outputs: Vec<Bit>,
