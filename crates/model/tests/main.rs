@@ -22,6 +22,7 @@ mod perspective;
 mod project;
 mod reset;
 mod sequencer;
+mod sequencer_gains;
 mod shade;
 mod shadow;
 mod slope;

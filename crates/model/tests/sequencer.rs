@@ -1,7 +1,8 @@
 //! The program of a sequenced SETUP, run word by word, against what the closed formulae of section 2 give: lines, edges
 //! and channels of triangles of all kinds, with 1, 2 and 4 lanes.
 
-use crate::common::{Triangle, any_triangle, random_machine, random_triangle};
+use crate::common::{Triangle, any_triangle, random_machine};
+use edgewalk_golden::Shading;
 use edgewalk_machine::sequencer::Program;
 use edgewalk_machine::sequencer::word::{Base, Control, Only, Sign, Word};
 use edgewalk_machine::{EdgeKind, Fill, MAX_CHANNELS, Machine, Plan, SetupKind};
@@ -9,6 +10,7 @@ use edgewalk_model::setup::sequencer::SlowSetup;
 use edgewalk_model::setup::{Setup, SetupClocks};
 use edgewalk_model::tokens::{EdgeWalk, Prim};
 use edgewalk_model::{Culled, Events, longest_setup, setup_clocks};
+use edgewalk_scene::Scene;
 use rand::{Rng, SeedableRng, rngs::StdRng};
 
 /// What the formulae give, and why the triangle is culled: an edge that is not walked has M = 0 in a sequenced SETUP.
@@ -40,12 +42,17 @@ struct Seen {
 }
 
 impl Seen {
-    fn check(&mut self, plan: &Plan, count: usize, rng: &mut StdRng) {
+    /// Random triangles of all kinds.
+    fn check_random(&mut self, plan: &Plan, count: usize, rng: &mut StdRng) {
+        let triangles: Vec<Triangle> = (0..count).map(|_| any_triangle(plan, rng)).collect();
+        self.check(plan, triangles, rng);
+    }
+
+    fn check(&mut self, plan: &Plan, triangles: impl IntoIterator<Item = Triangle>, rng: &mut StdRng) {
         let slow = SlowSetup::new(plan);
         let sequenced =
             plan.with(|m| m.setup_kind = SetupKind::Sequenced).plan().expect("any fill and edges");
-        for _ in 0..count {
-            let triangle = any_triangle(plan, rng);
+        for triangle in triangles {
             let light_pass = plan.shadow.draws_map() && rng.random_bool(0.5);
             let (prim, culled) = by_formulae(plan, &triangle, light_pass);
             let ran = slow.run::<MAX_CHANNELS>(&triangle, light_pass).expect("the program ends");
@@ -107,7 +114,7 @@ fn campaign(count: usize) {
             let mut own = Seen::default();
             let subpixel_bits = if fill == Fill::Textbook { 0 } else { 8 };
             let plan = Machine { lanes, fill, edge_kind, subpixel_bits, ..Machine::default() }.plan();
-            own.check(&plan.expect("can be built"), share, &mut rng);
+            own.check_random(&plan.expect("can be built"), share, &mut rng);
             own.report(
                 &format!("{lanes} lanes, {fill_name} fill, {edge_name} edges, default formats"),
                 fill == Fill::Textbook,
@@ -116,7 +123,7 @@ fn campaign(count: usize) {
             for _ in 0..RANDOM {
                 let kinds = [("edge.fill", fill_name), ("edge.kind", edge_name)];
                 let settings = [common.as_slice(), &kinds].concat();
-                others.check(&random_machine(&settings, &mut rng), share.div_ceil(RANDOM), &mut rng);
+                others.check_random(&random_machine(&settings, &mut rng), share.div_ceil(RANDOM), &mut rng);
             }
             others.report(
                 &format!("{lanes} lanes, {fill_name} fill, {edge_name} edges, random machines"),
@@ -140,6 +147,75 @@ fn program_gives_what_the_formulae_say() {
 #[ignore = "a campaign of minutes"]
 fn program_gives_the_same_on_many_triangles() {
     campaign(100_000);
+}
+
+/// The triangles of a scene at 640x480 as they stand at the port.
+pub(crate) fn of_scene(plan: &Plan, scene: &Scene) -> Vec<Triangle> {
+    let surface = scene.surface(plan.width, plan.height, f64::from((1u32 << plan.guard_bits) - 1));
+    let frame = edgewalk_golden::frame(scene, &surface, Shading::Gouraud);
+    let frame = frame.triangulated(plan.subpixel_bits).expect("triangles");
+    let vertex = |v: &edgewalk_scene::Vertex| {
+        plan.port_vertex(v.x, v.y, &[v.z, v.r, v.g, v.b]).expect("clipped to the guard band")
+    };
+    frame.triangles.iter().map(|triangle| triangle.0.each_ref().map(vertex)).collect()
+}
+
+/// Each scene with both fills, both kinds of edges, and 1, 2 and 4 lanes.
+fn scenes(scenes: &[(String, Scene)]) {
+    let mut rng = StdRng::seed_from_u64(0);
+    let (mut all, mut expected) = (0, 0);
+    for (name, scene) in scenes {
+        for (fill_name, edge_name, fill, edge_kind) in KINDS {
+            let subpixel_bits = if fill == Fill::Textbook { 0 } else { 8 };
+            for lanes in [1, 2, 4] {
+                let machine = Machine { lanes, fill, edge_kind, subpixel_bits, ..Machine::default() };
+                let plan = machine.plan().expect("can be built");
+                let triangles = of_scene(&plan, scene);
+                assert!(!triangles.is_empty(), "{name} has triangles");
+                expected += triangles.len();
+                let mut seen = Seen::default();
+                seen.check(&plan, triangles, &mut rng);
+                all += seen.checked;
+                println!(
+                    "{name}, {lanes} lanes, {fill_name} fill, {edge_name} edges: {} triangles equal, culled {:?}",
+                    seen.checked, seen.culled
+                );
+            }
+        }
+    }
+    println!("checked {all} / {expected} triangles");
+    assert!(all == expected && all > 0);
+}
+
+#[test]
+fn program_gives_the_tokens_of_a_scene() {
+    scenes(&[("room".into(), Scene::builtin("room").expect("a scene"))]);
+}
+
+/// `EDGEWALK_MESHES=DIR cargo test --release -p edgewalk-model -- --ignored program_gives_the_tokens_of_meshes --nocapture`:
+/// the built-in scenes, and each `.obj` of the folder.
+#[test]
+#[ignore = "a campaign of minutes"]
+fn program_gives_the_tokens_of_meshes() {
+    let mut list: Vec<(String, Scene)> =
+        Scene::BUILTIN.iter().map(|name| (name.to_string(), Scene::builtin(name).expect("a scene"))).collect();
+    if let Some(folder) = std::env::var_os("EDGEWALK_MESHES") {
+        let before = list.len();
+        let mut folders = vec![std::path::PathBuf::from(folder)];
+        while let Some(folder) = folders.pop() {
+            for entry in std::fs::read_dir(&folder).expect("a folder") {
+                let path = entry.expect("readable").path();
+                if path.is_dir() {
+                    folders.push(path);
+                } else if path.extension().is_some_and(|end| end == "obj") {
+                    let name = path.to_str().expect("UTF-8");
+                    list.push((name.into(), Scene::open(name).expect("a mesh")));
+                }
+            }
+        }
+        assert!(list.len() > before, "a mesh in the folder");
+    }
+    scenes(&list);
 }
 
 /// The word with one part altered, each part in turn.
@@ -203,55 +279,4 @@ fn altered_words_of_program_are_found() {
     println!("{} of {made} alterations found; not:\n{}", made - survivors.len(), survivors.join("\n"));
     assert!(made > 2000, "{made} alterations");
     assert!(survivors.len() * 4 < made, "{} of {made} are not found", survivors.len());
-}
-
-/// Clocks up to the first round of channels, and from there on, of a triangle that is not culled.
-fn halves(slow: &SlowSetup, front: &SlowSetup, triangle: &Triangle) -> Option<[u32; 2]> {
-    let of = |setup: &SlowSetup| setup.run::<MAX_CHANNELS>(triangle, false).expect("the program ends");
-    let whole = of(slow);
-    let before = of(front).clocks;
-    whole.culled.is_none().then(|| [before, whole.clocks + whole.load - before])
-}
-
-/// What a second sequencer would gain that does front and edges of the next triangle beside the channels of this one: the
-/// longer of both halves in the place of their sum. `docs/synthesis.md` has the figures:
-/// `cargo test --release -p edgewalk-model --test suites -- --ignored overlap_of_front_and_channels --nocapture`
-#[test]
-#[ignore = "a measurement"]
-fn overlap_of_front_and_channels_is_measured() {
-    const COUNT: usize = 6000;
-    for lanes in [1, 2, 4] {
-        let plan = Machine { lanes, ..Machine::default() }.plan().expect("can be built");
-        let slow = SlowSetup::new(&plan);
-        let mut program = Program::of(&plan);
-        let place = |name: &str| program.labels().find(|(label, _)| *label == name).expect("a label").1;
-        let (round, ready) = (place("round"), place("ready"));
-        program.words[usize::from(round)].control = Control::Goto(ready);
-        let front = SlowSetup::with(&plan, program);
-        let mut rng = StdRng::seed_from_u64(lanes.into());
-        for (name, size) in [("small", Some(6.0)), ("of all sizes", None)] {
-            let (mut sums, mut longer, mut drawn) = ([0; 2], 0, 0);
-            for _ in 0..COUNT {
-                let triangle = match size {
-                    Some(size) => random_triangle(&plan, size, &mut rng),
-                    None => any_triangle(&plan, &mut rng),
-                };
-                let Some([before, behind]) = halves(&slow, &front, &triangle) else { continue };
-                sums[0] += u64::from(before);
-                sums[1] += u64::from(behind);
-                longer += u64::from(before.max(behind));
-                drawn += 1;
-            }
-            let mean = |sum: u64| sum as f64 / f64::from(drawn);
-            let both = mean(sums[0] + sums[1]);
-            println!(
-                "{lanes} lanes, {drawn} triangles {name}: {:.0} + {:.0} = {both:.0} clocks, the longer {:.0}, {:.2} times as fast",
-                mean(sums[0]),
-                mean(sums[1]),
-                mean(longer),
-                both / mean(longer)
-            );
-            assert!(drawn > COUNT as u32 / 2 && mean(longer) < both);
-        }
-    }
 }
