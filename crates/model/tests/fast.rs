@@ -4,7 +4,8 @@ use crate::common::{Triangle, moved, random_values, render};
 use edgewalk_machine::key::Domain;
 use edgewalk_machine::keys::KEYS;
 use edgewalk_machine::{
-    BlendKind, Dither, ForeignVertex, Hazard, Machine, Plan, Role, ScreenDoor, ShadeKind, ShadowLight, Walk,
+    BlendKind, Dither, ForeignVertex, Hazard, Machine, Plan, Role, ScreenDoor, SetupKind, ShadeKind,
+    ShadowLight, Walk,
 };
 use edgewalk_model::fast::{self, Path, Reason, Refusal};
 use edgewalk_model::{Activity, DrawState, Events, Frame, Stalls};
@@ -136,9 +137,13 @@ fn random_machines_equal_ticking() {
     let (mut fast, mut channels, mut shadow, mut blend, mut shade, mut queue, mut interlock) =
         (0, 0, 0, 0, 0, 0, 0);
     let (mut dithered, mut door) = (0, 0);
-    let mut fragments = 0;
+    let (mut fragments, mut values) = (0, 0);
+    // Machines, and frames on the fast path, by kind of SETUP: parallel, sequenced.
+    let (mut machines, mut fast_by_kind) = ([0; 2], [0; 2]);
     for _ in 0..600 {
         let machine = random_machine(&mut rng);
+        let kind = usize::from(machine.setup_kind == SetupKind::Sequenced);
+        machines[kind] += 1;
         for _ in 0..3 {
             let triangles = random_triangles(&machine, &mut rng);
             let state = DrawState {
@@ -150,6 +155,7 @@ fn random_machines_equal_ticking() {
             match compare(&machine, &triangles, state) {
                 Path::Fast => {
                     fast += 1;
+                    fast_by_kind[kind] += 1;
                     dithered += usize::from(machine.dither.rounds());
                 }
                 Path::Ticked(Reason::ScreenDoor) => door += 1,
@@ -164,12 +170,19 @@ fn random_machines_equal_ticking() {
                 Path::Ticked(Reason::Memory) => panic!("this memory never stalls"),
             }
             fragments += triangles.len();
+            // z, three colours, coverage, writes and id of each pixel; 14 counters.
+            values += 7 * u64::from(machine.width) * u64::from(machine.height) + 14;
         }
     }
+    let [parallel, sequenced] = machines;
+    println!(
+        "{parallel} machines with a parallel SETUP and {sequenced} with a sequenced one, {fast_by_kind:?} of their frames fast: {values} values, 0 differ"
+    );
     println!(
         "1800 frames, {fragments} triangles: {fast} fast, {dithered} of them dithered; ticked: {door} for their screen door, {channels} for their channels, {shadow} for SHADOW, {blend} for BLEND, {shade} for SHADE, {queue} for the queue, \
          {interlock} for an interlock"
     );
+    assert!(machines.iter().all(|count| *count > 200) && fast_by_kind.iter().all(|count| *count > 300));
     assert!(fast > queue + interlock, "more than half of those with four channels must take the fast path");
     assert!(dithered > 50 && door > 50, "{dithered} dithered, {door} with a screen door");
     assert!(channels > 0 && shadow > 0 && blend > 0 && shade > 0 && queue > 0 && interlock > 0);

@@ -197,8 +197,10 @@ fn program_gives_the_tokens_of_a_scene() {
 #[test]
 #[ignore = "a campaign of minutes"]
 fn program_gives_the_tokens_of_meshes() {
-    let mut list: Vec<(String, Scene)> =
-        Scene::BUILTIN.iter().map(|name| (name.to_string(), Scene::builtin(name).expect("a scene"))).collect();
+    let mut list: Vec<(String, Scene)> = Scene::BUILTIN
+        .iter()
+        .map(|name| (name.to_string(), Scene::builtin(name).expect("a scene")))
+        .collect();
     if let Some(folder) = std::env::var_os("EDGEWALK_MESHES") {
         let before = list.len();
         let mut folders = vec![std::path::PathBuf::from(folder)];

@@ -115,7 +115,8 @@ fn room_and_shear_are_measured() {
         for (name, triangles) in sets {
             let (mut clocks, mut sums, mut shear, mut roomy, mut rounds, mut drawn) = (0, 0, 0, 0, 0, 0);
             for triangle in &triangles {
-                let of = |setup: &SlowSetup| setup.run::<MAX_CHANNELS>(triangle, false).expect("the program ends");
+                let of =
+                    |setup: &SlowSetup| setup.run::<MAX_CHANNELS>(triangle, false).expect("the program ends");
                 let ran = of(&slow);
                 if ran.culled.is_some() {
                     continue;
