@@ -7,7 +7,7 @@ use edgewalk_host::port::PortFrame;
 use edgewalk_machine::Plan;
 use edgewalk_model::{Counters, Pass};
 use edgewalk_netlist::Transitions;
-use edgewalk_synth::{Activity, Cache, Design, LIBRARY, Library, Part, Placeless, Power, gates, power};
+use edgewalk_synth::{Activity, Cache, Design, Library, Part, Placeless, Power, gates, power};
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
@@ -36,12 +36,15 @@ pub struct Drawing<'d> {
 }
 
 impl CellEnergy {
-    /// With the library of the system.
+    /// With the library of that file, or that of the system.
     ///
     /// # Errors
-    /// No library, or a folder that cannot be written.
-    pub fn new(cache: Option<&Path>, limit: u64) -> Result<CellEnergy> {
-        let library = Library::read(LIBRARY.as_ref())?;
+    /// No usable library, or a folder that cannot be written.
+    pub fn new(library: Option<&Path>, cache: Option<&Path>, limit: u64) -> Result<CellEnergy> {
+        let library = match library {
+            Some(file) => Library::read(file).context("--library")?,
+            None => Library::installed()?,
+        };
         let folder = cache_folder(cache)?;
         let scratch = Scratch::within(&folder).with_context(|| format!("--cache {}", folder.display()))?;
         let cache = Cache::new(folder, scratch.path().to_owned());
@@ -68,7 +71,8 @@ impl CellEnergy {
         Ok(Report {
             energy: energy(&power, mhz, cycles, &counters),
             machine: of.machine.hash(),
-            library: "osu018",
+            library: self.library.name().to_owned(),
+            gate: self.library.gate().to_owned(),
             placeless: gates.placeless,
             mhz,
             power,
@@ -82,7 +86,10 @@ impl CellEnergy {
 pub struct Report {
     /// Hash of the machine.
     machine: String,
-    library: &'static str,
+    /// Name of the library of cells.
+    library: String,
+    /// The cell in whose area the others are told.
+    gate: String,
     #[serde(flatten)]
     placeless: Placeless,
     /// Clock of the watts, MHz.
@@ -150,7 +157,7 @@ fn energy(power: &Power, mhz: f64, cycles: u64, counters: &Counters) -> Energy {
 impl Report {
     /// As text. Writing to a string cannot fail.
     pub fn text(&self) -> String {
-        let Report { machine, placeless, mhz, power, frame, energy, library } = self;
+        let Report { machine, placeless, mhz, power, frame, energy, library, gate } = self;
         let Placeless { tools, area_um2, kge, flip_flops, ns, path, units, .. } = placeless;
         let mut t = format!("machine {machine} in cells of {library}; {}; {}\n", tools[0], tools[1]);
         _ = writeln!(
@@ -172,7 +179,7 @@ impl Report {
         }
         _ = writeln!(
             t,
-            "area {:.3} mm2, {kge:.1} thousand gates (NAND2X1), {flip_flops} flip-flops",
+            "area {:.3} mm2, {kge:.1} thousand gates ({gate}), {flip_flops} flip-flops",
             area_um2 / 1e6
         );
         _ = writeln!(t, "clock {ns:.3} ns, {:.1} MHz without wires: {} to {}", 1000.0 / ns, path[0], path[1]);

@@ -144,11 +144,142 @@ fn energy_refuses_what_it_cannot_do() {
         (&["energy", "sphere", "--mhz", "0"][..], "permitted: 0.001 to 100000"),
         (&["energy", "sphere", "--triangles", "0"], "nothing was drawn"),
         (&["energy", "none.tri"], "none.tri: cannot be read"),
+        (&["compare", "a", "b", "sphere", "--library", "x.lib"], "--energy <N>"),
     ] {
         let (code, error) = run(folder.path(), words);
         assert_eq!(code, Some(2), "{words:?}: {error}");
         assert!(error.contains(why), "{words:?}: {error}");
     }
+}
+
+/// The smallest library that is accepted.
+const CELLS: &str = "library (tiny) {
+  time_unit : \"1ns\";
+  capacitive_load_unit (1, pf);
+  cell (ND) {
+    area : 4;
+    pin (A) { direction : input; }
+    pin (B) { direction : input; }
+    pin (Y) { direction : output; function : \"(A B)'\"; }
+  }
+  cell (IV) {
+    area : 2.5;
+    pin (A) { direction : input; }
+    pin (Y) { direction : output; function : \"!A\"; }
+  }
+  cell (FF) {
+    area : 20;
+    ff (IQ, IQN) { next_state : \"D\"; clocked_on : \"C\"; }
+    pin (C) { direction : input; clock : true; }
+    pin (D) { direction : input; }
+    pin (Q) { direction : output; function : \"IQ\"; }
+  }
+}
+";
+
+/// What is replaced in [`CELLS`], by what, and how the error goes on behind the file's name.
+const WRONG_LIBRARIES: [(&str, &str, &str); 22] = [
+    (CELLS, "", ":1: the text is empty; a Liberty file begins with library (NAME) {"),
+    (CELLS, "module a (b);\nendmodule\n", ":1: found `module`; a Liberty file begins with library (NAME) {"),
+    (CELLS, "{ \"cells\": [] }", ":1: found `{`; a Liberty file begins with library (NAME) {"),
+    ("library (tiny)", "library tiny", ":1: found `tiny`; needed: library (NAME) {"),
+    (CELLS, "library (tiny) { }", ":1: the library has no cells"),
+    ("  }\n}\n", "  }\n", ":22: the text ends within `library (tiny)` of line 1; a `}` is needed"),
+    ("  }\n}\n", "  }\n}\n}\n", ":23: found `}` behind the end of the library"),
+    (
+        "(1, pf)",
+        "(1, pf",
+        ":3: found `;` within the parentheses of `capacitive_load_unit` of line 3; a `)` is needed",
+    ),
+    ("\"IQ\"", "\"IQ", ":20: the text in quotes does not end; `\"` is needed"),
+    ("  cell (IV)", "  /* cell (IV)", ":10: the comment does not end; `*/` is needed"),
+    ("area : 4;", "area 4;", ":5: found `4` behind `area`; permitted: `:` or `(`"),
+    ("area : 4;", "= 4;", ":5: found `4` behind `=`; permitted: `:` or `(`"),
+    ("    area : 4;\n", "", ":4: cell `ND` has no area; needed: area : UM2;"),
+    (
+        "area : 4;",
+        "area : four;",
+        ":5: area of cell `ND`: found `four`; permitted: a number of 0 or more, um2",
+    ),
+    ("area : 4;", "area : -4;", ":5: area of cell `ND`: found `-4`; permitted: a number of 0 or more, um2"),
+    ("area : 4;", "area : inf;", ":5: area of cell `ND`: found `inf`; permitted: a number of 0 or more, um2"),
+    ("cell (IV)", "cell (ND)", ":10: cell `ND` is there a second time; permitted: once"),
+    ("cell (IV)", "cell ()", ":10: a cell without a name; needed: cell (NAME) {"),
+    ("\"(A B)'\"", "\"(A B)\"", ": has no NAND of two inputs with an area"),
+    ("\"!A\"", "\"A\"", ": has no inverter"),
+    (
+        "clocked_on : \"C\"",
+        "clocked_on : \"!C\"",
+        ": has no flip-flop of the rising clock edge without set and reset",
+    ),
+    (
+        "next_state : \"D\";",
+        "next_state : \"D\"; clear : \"!R\";",
+        ": has no flip-flop of the rising clock edge",
+    ),
+];
+
+#[test]
+fn wrong_libraries_are_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("cells.lib");
+    let refused = |name: &str, why: &str| {
+        for words in [
+            &["energy", "sphere", "--triangles", "1", "--library", name][..],
+            &["compare", "default", "default", "sphere", "--energy", "1", "--library", name],
+        ] {
+            let (code, error) = run(folder.path(), words);
+            assert_eq!(code, Some(2), "{words:?}: {error}");
+            let expected = format!("error: --library: {name}{why}");
+            assert!(error.starts_with(&expected), "{expected} is expected, not\n{error}");
+        }
+    };
+    for (from, to, why) in WRONG_LIBRARIES {
+        assert_eq!(CELLS.matches(from).count(), 1, "{from}");
+        std::fs::write(&file, CELLS.replace(from, to)).unwrap();
+        refused("cells.lib", why);
+    }
+    std::fs::write(&file, CELLS.as_bytes().iter().map(|byte| byte | 128).collect::<Vec<_>>()).unwrap();
+    refused("cells.lib", ":1: is no text in UTF-8");
+    std::fs::File::create(&file).unwrap().set_len(1 << 40).unwrap();
+    refused("cells.lib", ": has 1099511627776 bytes; permitted: 268435456");
+    std::fs::remove_file(&file).unwrap();
+    refused("cells.lib", ": cannot be read: No such file or directory");
+    refused(".", ": is no regular file");
+    refused("/dev/zero", ": is no regular file");
+}
+
+/// Cells are known by their functions: with other names they give the same figures. Times are read in the library's unit.
+#[test]
+fn energy_takes_another_library() {
+    let folder = tempfile::tempdir().unwrap();
+    let installed = std::fs::read_to_string("/usr/share/qflow/tech/osu018/osu018_stdcells.lib").unwrap();
+    let flip_flop = installed.find("cell (DFFPOSX1)").unwrap();
+    let next = flip_flop + installed[flip_flop..].find("cell (DFFSR)").unwrap();
+    let [before, flip_flop, behind] =
+        [&installed[..flip_flop], &installed[flip_flop..next], &installed[next..]];
+    assert_eq!(flip_flop.matches("pin(Q)").count(), 1);
+    let renamed = [before, &flip_flop.replace("pin(Q)", "pin(OUT)"), behind].concat();
+    let renamed = [("DFFPOSX1", "FD1"), ("NAND2X1", "ND2"), ("INVX2", "IV2"), ("osu018_stdcells", "mine")]
+        .iter()
+        .fold(renamed, |text, (from, to)| text.replace(from, to));
+    let report = |text: &str| {
+        std::fs::write(folder.path().join("my cells.lib"), text).unwrap();
+        let printed = energy(folder.path(), &["--json", "--library", "my cells.lib"]);
+        serde_json::from_str::<Value>(&printed).unwrap()
+    };
+    let osu: Value = serde_json::from_str(&energy(folder.path(), &["--json"])).unwrap();
+    let mine = report(&renamed);
+    assert_eq!([&osu["library"], &osu["gate"]], ["osu018_stdcells", "NAND2X1"]);
+    assert_eq!([&mine["library"], &mine["gate"]], ["mine", "ND2"]);
+    for key in ["area_um2", "kge", "flip_flops", "cells", "ns", "path", "units", "power", "energy"] {
+        assert_eq!(mine[key], osu[key], "{key}");
+    }
+    assert!(installed.contains("time_unit : \"1ns\""));
+    let quick = report(&installed.replace("time_unit : \"1ns\"", "time_unit : \"1ps\""));
+    // OpenSTA prints four digits.
+    let [quick, osu] = [&quick, &osu].map(|report| number(&report["ns"]));
+    assert!((quick - osu / 1000.0).abs() <= 0.5e-4, "{quick} and {osu} ns");
 }
 
 /// Six pairs of machines whose order was stated before the first run. Three of them have it, and docs/energy.md says why the

@@ -43,7 +43,7 @@ pub use packed::Packed;
 pub use part::{Part, UnknownPart};
 pub use report::{Mhz, Outcome, Seed, UnitCells};
 pub use standard_cells::{
-    Activity, Gates, LIBRARY, Library, Placeless, Power, UnitArea, UnitPower, gates, power,
+    Activity, Gates, Library, LibraryError, Placeless, Power, UnitArea, UnitPower, gates, power,
 };
 pub use target::{TARGETS, Target};
 pub use timing::{CriticalPath, Point};

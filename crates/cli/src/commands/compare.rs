@@ -84,6 +84,9 @@ pub struct Args {
     /// `edgewalk energy`
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
     energy: Option<u32>,
+    /// With --energy: a library of cells in the Liberty format, instead of OSU's for 0.18 um
+    #[arg(long, value_name = "FILE.lib", requires = "energy")]
+    library: Option<PathBuf>,
     #[command(flatten)]
     synth: SynthArgs,
     /// Output directory

@@ -13,7 +13,7 @@ use std::path::PathBuf;
 /// Draw the input with the machine's netlist, count the transitions of its registers, and compute area, clock and energy in
 /// standard cells.
 ///
-/// Yosys maps the Verilog onto the cells of OSU's library for 0.18 um; OpenSTA computes the clock, and the power from the
+/// Yosys maps the Verilog onto the cells of OSU's library for 0.18 um, or of your own; OpenSTA computes the clock, and the power from the
 /// transitions of every register and port. There is no layout: wires and the tree of the clock cost nothing. The memories
 /// outside the machine are not counted. The figures compare machines; they are no promise of a chip.
 ///
@@ -22,7 +22,8 @@ use std::path::PathBuf;
 #[command(after_help = "Examples:
   edgewalk energy sphere
   edgewalk energy sphere --triangles 100 --set formats.z_fraction=6
-  edgewalk energy mesh.obj --mhz 50 --json")]
+  edgewalk energy mesh.obj --mhz 50 --json
+  edgewalk energy sphere --triangles 100 --library cells.lib")]
 pub struct Args {
     #[command(flatten)]
     source: Source,
@@ -35,6 +36,9 @@ pub struct Args {
     /// Clock at which the power is told; the fastest that the gates permit if left out
     #[arg(long, value_name = "MHZ", value_parser = megahertz)]
     mhz: Option<f64>,
+    /// Library of cells in the Liberty format, instead of OSU's for 0.18 um (docs/energy.md)
+    #[arg(long, value_name = "FILE.lib")]
+    library: Option<PathBuf>,
     /// Time limit of each run of a tool, seconds
     #[arg(long, default_value_t = 3600, value_name = "SECONDS", value_parser = clap::value_parser!(u64).range(1..))]
     limit: u64,
@@ -51,7 +55,7 @@ fn megahertz(text: &str) -> Result<f64, String> {
 /// Runs the command.
 pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
     let machine = args.source.machine(machine)?;
-    let cells = CellEnergy::new(args.cache.as_deref(), args.limit)?;
+    let cells = CellEnergy::new(args.library.as_deref(), args.cache.as_deref(), args.limit)?;
     let port = to_port(&args.source.frame(&machine)?, &machine)?;
     let triangles = args.triangles.map_or(port.triangles.len(), |most| most.min(port.triangles.len()));
     let size = (machine.width, machine.height);

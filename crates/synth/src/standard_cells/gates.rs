@@ -1,6 +1,6 @@
 //! From Verilog to gates, and the longest path through them.
 
-use super::library::{CONSTRAINTS, FLIP_FLOP, Library};
+use super::library::Library;
 use crate::cache::Cache;
 use crate::design::Design;
 use edgewalk_tool::{Stop, run};
@@ -11,6 +11,7 @@ use std::process::Command;
 use std::time::Duration;
 
 /// Files of the step.
+const CELLS: &str = "cells.lib";
 const VERILOG: &str = "gates.v";
 const WRITTEN: &str = "gates.json";
 const MODULES: &str = "modules.json";
@@ -36,7 +37,7 @@ pub struct Placeless {
     pub tools: [String; 2],
     /// Area of all cells, um2.
     pub area_um2: f64,
-    /// Thousands of gate equivalents: the area in NAND2X1.
+    /// Thousands of gate equivalents: the area in NANDs of two inputs.
     pub kge: f64,
     /// Flip-flops.
     pub flip_flops: u64,
@@ -68,10 +69,21 @@ pub(super) struct Module {
     pub cells: BTreeMap<String, u64>,
     /// Instances: name and module.
     pub instances: Vec<(String, String)>,
-    /// Flip-flops: the cell's name, and the names of its output.
-    pub registers: Vec<(String, Vec<String>)>,
+    /// Flip-flops.
+    pub registers: Vec<Register>,
     /// Input bits by name.
     pub inputs: Vec<String>,
+}
+
+/// A flip-flop of a module.
+#[derive(Debug, Serialize, Deserialize)]
+pub(super) struct Register {
+    /// Name of the cell.
+    pub cell: String,
+    /// The pin at which its value is seen.
+    pub output: String,
+    /// Names of the bit at that pin, as the Verilog has them.
+    pub names: Vec<String>,
 }
 
 /// Synthesises the design. The steps are kept in the cache.
@@ -81,13 +93,14 @@ pub(super) struct Module {
 pub fn gates(design: &Design, library: &Library, cache: &Cache, limit: Duration) -> Result<Gates, Stop> {
     let yosys = first_line(&run(Command::new("yosys").arg("-V"), limit)?);
     let sta = "OpenSTA ".to_owned() + &first_line(&run(Command::new("sta").arg("-version"), limit)?);
-    let (top, lib) = (&design.module, library.path.display());
+    let top = &design.module;
+    let constraints = constraints(library);
     // Wires of one bit each: OpenSTA reads no concatenations. Cells get names without marks.
     let script = format!(
-        "synth -top {top}; dfflibmap -liberty {lib}; abc -liberty {lib} -constr constraints; splitnets -ports; \
+        "synth -top {top}; dfflibmap -liberty {CELLS}; abc -liberty {CELLS} -constr constraints; splitnets -ports; \
          opt_clean -purge; rename -enumerate -pattern cell_%; write_verilog -noattr {VERILOG}; write_json {WRITTEN}"
     );
-    let key = [&*design.hash, &yosys, &library.hash, &script, CONSTRAINTS, "without constants"];
+    let key = [&*design.hash, &yosys, &library.hash, &script, &constraints, "without constants"];
     let folder = cache.step(&key, &[VERILOG, MODULES], |folder| {
         let write = |name: &str, text: &str| {
             std::fs::write(folder.join(name), text).map_err(|error| Stop::broken(name, &error))
@@ -95,7 +108,8 @@ pub fn gates(design: &Design, library: &Library, cache: &Cache, limit: Duration)
         for (name, verilog) in &design.files {
             write(name, verilog)?;
         }
-        write("constraints", CONSTRAINTS)?;
+        write(CELLS, &library.text)?;
+        write("constraints", &constraints)?;
         let script = format!("read_verilog {}; {script}", design.sources().collect::<Vec<_>>().join(" "));
         run(Command::new("yosys").args(["-q", "-p", &script]).current_dir(folder), limit)?;
         write(VERILOG, &without_constants(&text(&folder.join(VERILOG))?))?;
@@ -107,9 +121,8 @@ pub fn gates(design: &Design, library: &Library, cache: &Cache, limit: Duration)
     // Absolute: OpenSTA works in another folder.
     let verilog = std::path::absolute(folder.join(VERILOG)).map_err(|error| Stop::broken(VERILOG, &error))?;
     let timing = cache.step(&[&key[..], &[&*sta]].concat(), &[TIMING], |folder| {
-        let script =
-            format!("{}report_checks -path_delay max -digits 4\n", opened(library, &verilog, top, PERIOD));
-        std::fs::write(folder.join(TIMING), sta_run(folder, &script, limit)?)
+        let script = format!("{}report_checks -path_delay max -digits 4\n", opened(&verilog, top, PERIOD));
+        std::fs::write(folder.join(TIMING), sta_run(folder, library, &script, limit)?)
             .map_err(|error| Stop::broken(TIMING, &error))
     })?;
     let (ns, ends) = longest(&text(&timing.join(TIMING))?)?;
@@ -125,19 +138,32 @@ fn without_constants(verilog: &str) -> String {
     verilog.lines().filter(|line| !constant(line)).fold(String::new(), |text, line| text + line + "\n")
 }
 
+/// The world outside the design, for ABC: an inverter drives each input, and each output has a load, fF.
+fn constraints(library: &Library) -> String {
+    format!("set_driving_cell {}\nset_load 0.05\n", library.inverter)
+}
+
 /// Commands of OpenSTA that open the netlist with a clock of that period, ns.
-pub(super) fn opened(library: &Library, verilog: &Path, top: &str, period: f64) -> String {
+pub(super) fn opened(verilog: &Path, top: &str, period: f64) -> String {
+    // The library's own units may be others.
     format!(
-        "read_liberty {}\nread_verilog {}\nlink_design {top}\ncreate_clock -name clk -period {period} [get_ports clk]\n",
-        library.path.display(),
+        "read_liberty {CELLS}\nset_cmd_units -time ns -power W\nread_verilog {{{}}}\nlink_design {top}\n\
+         create_clock -name clk -period {period} [get_ports clk]\n",
         verilog.display()
     )
 }
 
 /// Runs commands of OpenSTA. It ends with success whatever a command says, so its errors are looked for.
-pub(super) fn sta_run(folder: &Path, script: &str, limit: Duration) -> Result<String, Stop> {
+pub(super) fn sta_run(
+    folder: &Path,
+    library: &Library,
+    script: &str,
+    limit: Duration,
+) -> Result<String, Stop> {
     const SCRIPT: &str = "run.tcl";
-    std::fs::write(folder.join(SCRIPT), script).map_err(|error| Stop::broken(SCRIPT, &error))?;
+    for (name, text) in [(SCRIPT, script), (CELLS, &library.text)] {
+        std::fs::write(folder.join(name), text).map_err(|error| Stop::broken(name, &error))?;
+    }
     let printed = run(
         Command::new("sta").args(["-no_splash", "-no_init", "-exit", SCRIPT]).current_dir(folder),
         limit,
@@ -212,9 +238,10 @@ fn modules(json: &str, library: &Library) -> Result<BTreeMap<String, Module>, St
                 return Err(broken(format!("{name} has cells {type}, which the library has not")));
             }
             *module.cells.entry(r#type.clone()).or_default() += 1;
-            if let (FLIP_FLOP, Some([output])) = (&**r#type, connections.get("Q").map(Vec::as_slice)) {
-                let names = names.get(output).cloned().unwrap_or_default();
-                module.registers.push((cell.clone(), names));
+            if let Some(output) = library.register(r#type) {
+                let bit = connections.get(output).and_then(|bits| bits.first());
+                let names = bit.and_then(|bit| names.get(bit)).cloned().unwrap_or_default();
+                module.registers.push(Register { cell: cell.clone(), output: output.to_owned(), names });
             }
         }
         let inputs = of.ports.iter().filter(|(name, port)| port.direction == "input" && *name != "clk");
@@ -263,7 +290,7 @@ fn counted(
     };
     units.sort_by_key(order);
     let (area_um2, flip_flops, cells) = all;
-    let kge = area_um2 / library.gate() / 1000.0;
+    let kge = area_um2 / library.gate_area() / 1000.0;
     Ok(Placeless { tools, area_um2, kge, flip_flops, cells, ns, path, units })
 }
 
@@ -293,8 +320,8 @@ fn named(modules: &BTreeMap<String, Module>, top: &str, path: &str) -> String {
         let instance = module.and_then(|module| module.instances.iter().find(|(name, _)| name == part));
         module = instance.and_then(|(_, module)| modules.get(module));
     }
-    let register = module.and_then(|module| module.registers.iter().find(|(name, _)| name == cell));
-    let name = register.and_then(|(_, names)| names.first()).map_or(cell, String::as_str);
+    let register = module.and_then(|module| module.registers.iter().find(|of| of.cell == cell));
+    let name = register.and_then(|of| of.names.first()).map_or(cell, String::as_str);
     parts.push(name);
     parts.join(".").trim_start_matches("u_").to_owned()
 }

@@ -1,52 +1,154 @@
-//! The library of standard cells: OSU's for 0.18 um, as Debian packages it.
+//! The library of standard cells: one of the user's own, or OSU's for 0.18 um, as Debian packages it.
+//!
+//! A cell is known by its function. These are needed: a flip-flop of the rising edge without set and reset, an inverter,
+//! and a NAND of two inputs, in whose area the others are counted.
 
+use super::function::table;
+use super::liberty::{Group, Wrong, cut, parse};
 use edgewalk_tool::Stop;
 use sha2::{Digest, Sha256};
 use std::collections::BTreeMap;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 /// Where the Debian package puts the library.
-pub const LIBRARY: &str = "/usr/share/qflow/tech/osu018/osu018_stdcells.lib";
+const INSTALLED: &str = "/usr/share/qflow/tech/osu018/osu018_stdcells.lib";
 /// What installs it.
 const INSTALL: &str = "apt-get install -y --no-install-recommends qflow-tech-osu018";
-
-/// The flip-flop onto which every register is mapped.
-pub(super) const FLIP_FLOP: &str = "DFFPOSX1";
-/// Areas are told in multiples of this cell's (gate equivalents).
-const GATE: &str = "NAND2X1";
-/// What the tools are told of the world outside: it drives inputs with this cell, and outputs have this load, pF.
-pub(super) const CONSTRAINTS: &str = "set_driving_cell INVX2\nset_load 0.05\n";
+/// Longer files are no library of cells, bytes.
+const MOST_BYTES: u64 = 256 << 20;
 
 /// A library of cells in the Liberty format.
 #[derive(Clone, Debug)]
 pub struct Library {
-    pub(super) path: PathBuf,
-    /// SHA-256 of its text.
+    /// The file's text.
+    pub(super) text: String,
+    /// SHA-256 of the text.
     pub(super) hash: String,
+    name: String,
     /// Area of each cell, um2.
     areas: BTreeMap<String, f64>,
+    /// Cells with a register, and the pin at which the register's value is seen.
+    registers: BTreeMap<String, String>,
+    /// The smallest NAND of two inputs, and its area.
+    gate: (String, f64),
+    /// Name of the inverter that drives the inputs of a design.
+    pub(super) inverter: String,
+}
+
+/// A file that is no usable library.
+#[derive(Debug, thiserror::Error)]
+pub enum LibraryError {
+    /// The file could not be opened or read.
+    #[error("{file}: cannot be read")]
+    Read {
+        /// The file as the user named it.
+        file: String,
+        /// The operating system's reason.
+        source: std::io::Error,
+    },
+    /// The format or a value is wrong.
+    #[error("{file}:{line}: {what}")]
+    Line {
+        /// The file as the user named it.
+        file: String,
+        /// Line, counted from 1.
+        line: usize,
+        /// What was found, and what is permitted.
+        what: String,
+    },
+    /// The file as a whole is wrong, or lacks a cell that every design takes.
+    #[error("{file}: {what}")]
+    Whole {
+        /// The file as the user named it.
+        file: String,
+        /// What was found, and what is permitted.
+        what: String,
+    },
 }
 
 impl Library {
+    /// The library of the system.
+    ///
+    /// # Errors
+    /// It is not installed, or damaged.
+    pub fn installed() -> Result<Library, Stop> {
+        let tool = INSTALLED.to_owned();
+        if !Path::new(INSTALLED).exists() {
+            return Err(Stop::Missing { tool, install: INSTALL.to_owned() });
+        }
+        Library::read(INSTALLED.as_ref())
+            .map_err(|error| Stop::Broken { tool, lines: vec![error.to_string()] })
+    }
+
     /// Reads the file.
     ///
     /// # Errors
-    /// It is not there, or lacks the areas of the cells that every design takes.
-    pub fn read(path: &Path) -> Result<Library, Stop> {
-        let tool = path.display().to_string();
-        let text = std::fs::read_to_string(path).map_err(|error| match error.kind() {
-            std::io::ErrorKind::NotFound => Stop::Missing { tool: tool.clone(), install: INSTALL.to_owned() },
-            _ => Stop::broken(&tool, &error),
+    /// It cannot be read, is no library in the Liberty format, or lacks a cell that every design takes.
+    pub fn read(path: &Path) -> Result<Library, LibraryError> {
+        let file = || path.display().to_string();
+        let unread = |source| LibraryError::Read { file: file(), source };
+        let whole = |what: &str| LibraryError::Whole { file: file(), what: what.to_owned() };
+        let kind = std::fs::metadata(path).map_err(unread)?;
+        if !kind.is_file() {
+            return Err(whole("is no regular file; a library in the Liberty format is needed"));
+        }
+        if kind.len() > MOST_BYTES {
+            return Err(whole(&format!("has {} bytes; permitted: {MOST_BYTES}", kind.len())));
+        }
+        let bytes = std::fs::read(path).map_err(unread)?;
+        let text = String::from_utf8(bytes).map_err(|error| {
+            let before = &error.as_bytes()[..error.utf8_error().valid_up_to()];
+            let line = 1 + before.iter().filter(|byte| **byte == b'\n').count();
+            LibraryError::Line { file: file(), line, what: "is no text in UTF-8".to_owned() }
         })?;
-        let areas = areas(&text);
-        for cell in [GATE, FLIP_FLOP] {
-            if !areas.contains_key(cell) {
-                let lines = vec![format!("the library has no area of a cell {cell}")];
-                return Err(Stop::Broken { tool, lines });
+        let at = |Wrong { line, what }| LibraryError::Line { file: file(), line, what };
+        let library = parse(&text).map_err(at)?;
+        let areas = areas(&library).map_err(at)?;
+        let (mut registers, mut gates, mut inverters) = (BTreeMap::new(), Vec::new(), Vec::new());
+        let mut rising = false;
+        for cell in library.of("cell") {
+            if let Some((register, output)) = register(cell) {
+                rising |= rises(register);
+                registers.insert(cell.name().to_owned(), output);
+            }
+            let area = areas[cell.name()]; // there: `areas` has one of each cell
+            match shape(cell) {
+                Some((2, 0b0111, _)) => gates.push((cell.name().to_owned(), area)),
+                Some((1, 0b01, drives)) => inverters.push((cell.name(), area, drives)),
+                _ => {}
             }
         }
+        if !rising {
+            return Err(whole("has no flip-flop of the rising clock edge without set and reset"));
+        }
+        gates.sort_by(|a, b| a.1.total_cmp(&b.1));
+        let gate = gates.into_iter().find(|(_, area)| *area > 0.0);
+        let gate =
+            gate.ok_or_else(|| whole("has no NAND of two inputs with an area: areas are told in it"))?;
+        // The smallest one; of several, the one that drives most.
+        inverters.sort_by(|a, b| a.1.total_cmp(&b.1).then(b.2.total_cmp(&a.2)));
+        let inverter =
+            inverters.first().ok_or_else(|| whole("has no inverter: it drives the inputs"))?.0.to_owned();
         let hash = Sha256::digest(&text).iter().map(|byte| format!("{byte:02x}")).collect();
-        Ok(Library { path: path.to_owned(), hash, areas })
+        let name = library.name().to_owned();
+        Ok(Library { hash, name, areas, registers, gate, inverter, text })
+    }
+
+    /// Name of the library, as its file tells it.
+    #[must_use]
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// The cell in whose area others are told.
+    #[must_use]
+    pub fn gate(&self) -> &str {
+        &self.gate.0
+    }
+
+    /// Area of one gate equivalent, um2.
+    pub(super) fn gate_area(&self) -> f64 {
+        self.gate.1
     }
 
     /// Area of a cell, um2.
@@ -54,41 +156,78 @@ impl Library {
         self.areas.get(cell).copied()
     }
 
-    /// Area of one gate equivalent, um2.
-    pub(super) fn gate(&self) -> f64 {
-        self.areas[GATE] // there: `read` has looked
+    /// The pin at which the cell's register is seen, if it has a register.
+    pub(super) fn register(&self, cell: &str) -> Option<&str> {
+        self.registers.get(cell).map(String::as_str)
     }
 }
 
-/// The area of each cell of a Liberty text: the first `area` behind each `cell (NAME)`.
-fn areas(text: &str) -> BTreeMap<String, f64> {
+/// The area of each cell.
+fn areas(library: &Group) -> Result<BTreeMap<String, f64>, Wrong> {
     let mut areas = BTreeMap::new();
-    let mut cell: Option<&str> = None;
-    for line in text.lines().map(str::trim) {
-        if let Some(rest) = line.strip_prefix("cell") {
-            let name = rest.trim_start().strip_prefix('(').and_then(|rest| rest.split_once(')'));
-            cell = name.map(|(name, _)| name.trim().trim_matches('"')).or(cell);
-        } else if let Some(value) =
-            line.strip_prefix("area").and_then(|rest| rest.trim_start().strip_prefix(':'))
-        {
-            let number = value.trim().trim_end_matches(';').trim().parse();
-            if let (Some(name), Ok(area)) = (cell.take(), number) {
-                areas.insert(name.to_owned(), area);
-            }
+    for cell in library.of("cell") {
+        let name = cell.name();
+        if name.is_empty() {
+            return Err(Wrong {
+                line: cell.line,
+                what: "a cell without a name; needed: cell (NAME) {".to_owned(),
+            });
+        }
+        let Some((value, line)) = cell.value("area") else {
+            let what = format!("cell `{}` has no area; needed: area : UM2;", cut(name));
+            return Err(Wrong { line: cell.line, what });
+        };
+        let Some(area) = value.parse().ok().filter(|area: &f64| area.is_finite() && *area >= 0.0) else {
+            let what = format!(
+                "area of cell `{}`: found `{}`; permitted: a number of 0 or more, um2",
+                cut(name),
+                cut(value)
+            );
+            return Err(Wrong { line, what });
+        };
+        if areas.insert(name.to_owned(), area).is_some() {
+            let what = format!("cell `{}` is there a second time; permitted: once", cut(name));
+            return Err(Wrong { line: cell.line, what });
         }
     }
-    areas
+    match areas.is_empty() {
+        true => Err(Wrong { line: library.line, what: "the library has no cells".to_owned() }),
+        false => Ok(areas),
+    }
 }
 
-#[cfg(test)]
-mod tests {
-    use super::areas;
+/// The register of a cell, and the pin at which its value, or else its inverse, is seen.
+fn register(cell: &Group) -> Option<(&Group, String)> {
+    let register = cell.of("ff").next()?;
+    let output = register.names.iter().find_map(|state| {
+        cell.of("pin").find(|pin| pin.value("function").is_some_and(|(of, _)| bare(of) == state))
+    })?;
+    Some((register, output.name().to_owned()))
+}
 
-    #[test]
-    fn areas_are_those_of_their_cells() {
-        let text = "library(l) {\n  cell_rise(x) { area : 7; }\n  cell (A) {\n    area : 24;\n    pin(Y) { area : 9; }\n  }\n\
-                    cell(\"B\") {\narea:96.5 ;\n}\ncell (C) {\n}\n}";
-        let found: Vec<_> = areas(text).into_iter().collect();
-        assert_eq!(found, [("A".to_owned(), 24.0), ("B".to_owned(), 96.5)]);
-    }
+/// Whether the register takes a value at the rising edge of a pin, and has neither set nor reset.
+fn rises(register: &Group) -> bool {
+    let is_name =
+        |text: &str| !text.is_empty() && text.chars().all(|c| c.is_alphanumeric() || "_[]".contains(c));
+    let plain = |key: &str| register.value(key).is_some_and(|(value, _)| is_name(bare(value)));
+    let free = |key: &str| register.value(key).is_none();
+    plain("clocked_on") && plain("next_state") && free("clear") && free("preset")
+}
+
+/// `(A)` without space and parentheses.
+fn bare(function: &str) -> &str {
+    function.trim_matches(|c: char| c.is_whitespace() || "()".contains(c))
+}
+
+/// A cell of one output and at most two inputs: how many, its truth table, and the greatest capacitance it drives.
+fn shape(cell: &Group) -> Option<(usize, u64, f64)> {
+    let pins = |direction: &str| {
+        let of = cell.of("pin").filter(|pin| pin.value("direction").is_some_and(|(of, _)| of == direction));
+        of.collect::<Vec<_>>()
+    };
+    let (inputs, outputs) = (pins("input"), pins("output"));
+    let ([output], 1..=2) = (&outputs[..], inputs.len()) else { return None };
+    let names: Vec<&str> = inputs.iter().map(|pin| pin.name()).collect();
+    let drives = output.value("max_capacitance").and_then(|(most, _)| most.parse().ok()).unwrap_or(0.0);
+    Some((names.len(), table(output.value("function")?.0, &names)?, drives))
 }

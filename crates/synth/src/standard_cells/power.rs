@@ -1,6 +1,6 @@
 //! Power of the gates while a frame is drawn.
 
-use super::gates::{Gates, Module, opened, sta_run};
+use super::gates::{Gates, Module, Register, opened, sta_run};
 use super::library::Library;
 use crate::cache::Cache;
 use edgewalk_tool::Stop;
@@ -53,7 +53,7 @@ pub fn power(
     limit: Duration,
 ) -> Result<Power, Stop> {
     // The documented command `set_power_activity -pins` of version 2.0.17 fails, so those beneath it are called.
-    let mut script = opened(library, &gates.verilog, &gates.top, period);
+    let mut script = opened(&gates.verilog, &gates.top, period);
     for input in &gates.modules[&gates.top].inputs {
         if let Some(Activity { transitions, high }) = activity.get(input) {
             let port = input.replace('[', "\\[").replace(']', "\\]");
@@ -65,18 +65,15 @@ pub fn power(
         }
     }
     let mut counted = 0;
-    registers(&gates.modules, &gates.top, "", &mut |cell, names| {
+    registers(&gates.modules, &gates.top, "", &mut |pin, names| {
         let found = names.iter().find_map(|name| activity.get(name));
         if let Some(Activity { transitions, high }) = found {
             counted += 1;
-            _ = writeln!(
-                script,
-                "sta::set_power_pin_activity [get_pins {cell}/Q] {transitions:.9} {high:.9}"
-            );
+            _ = writeln!(script, "sta::set_power_pin_activity [get_pins {pin}] {transitions:.9} {high:.9}");
         }
     });
     script.push_str("report_power -digits 9 -instances [get_cells -hierarchical *]\n");
-    let printed = sta_run(cache.scratch(), &script, limit)?;
+    let printed = sta_run(cache.scratch(), library, &script, limit)?;
     let (mut all, mut leakage) = (0.0, 0.0);
     let mut units: BTreeMap<String, f64> = BTreeMap::new();
     let mut cells = 0;
@@ -104,7 +101,7 @@ pub fn power(
     Ok(Power { watts: all, leakage_watts: leakage, counted, units: units.collect() })
 }
 
-/// Visits each flip-flop: its path for OpenSTA, and the paths of its output by each name.
+/// Visits each flip-flop: the path of its output pin for OpenSTA, and the paths of that bit by each name.
 fn registers(
     modules: &BTreeMap<String, Module>,
     module: &str,
@@ -113,9 +110,9 @@ fn registers(
 ) {
     let of = &modules[module];
     let dotted = prefix.replace('/', ".");
-    for (cell, names) in &of.registers {
+    for Register { cell, output, names } in &of.registers {
         let names = names.iter().map(|name| format!("{dotted}{name}")).collect();
-        visit(format!("{prefix}{cell}"), names);
+        visit(format!("{prefix}{cell}/{output}"), names);
     }
     for (instance, module) in &of.instances {
         registers(modules, module, &format!("{prefix}{instance}/"), visit);

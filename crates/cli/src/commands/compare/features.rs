@@ -144,7 +144,8 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
         None => None,
     };
     let tools = args.synth.tools();
-    let cells = args.energy.map(|_| CellEnergy::new(tools.cache(), tools.limit())).transpose()?;
+    let library = args.library.as_deref();
+    let cells = args.energy.map(|_| CellEnergy::new(library, tools.cache(), tools.limit())).transpose()?;
     let out = Staging::new(&args.out)?;
     let (mut machines, mut verdict, mut drawn) = (Vec::new(), Verdict::Pass, 0);
     for column in &columns {
