@@ -25,7 +25,7 @@ impl Group {
         found.map(|(_, value, line)| (&**value, *line))
     }
 
-    /// Its first name; empty if it has none.
+    /// The group's first name; empty if it has none.
     pub fn name(&self) -> &str {
         self.names.first().map_or("", String::as_str)
     }
