@@ -3,7 +3,7 @@
 
 use super::delay::Path;
 use super::graph::QuickMap;
-use super::kept::{Kept, Unit};
+use super::kept::{Kept, Unit, Viewed};
 use super::module::{Gives, Logic, Module, OFTEN};
 use super::ports::{Seen, View};
 use super::structure::{Structure, UnitTables};
@@ -38,20 +38,39 @@ struct Composed<'k> {
     wires: Vec<Vec<u32>>,
     gives: Vec<Vec<Gives>>,
     reads: Vec<Vec<u8>>,
-    found: Vec<Arc<Module>>,
+    /// By module: where its outputs begin among the outputs of all modules. The last number is that of all.
+    outputs: Vec<usize>,
+}
+
+/// A module of a machine that is settled.
+struct Settled {
+    view: View,
+    viewed: Arc<Viewed>,
+    logic: Option<Logic>,
 }
 
 /// The machine of this netlist, whose instances are these units.
 pub(super) fn compose(kept: &Kept, joints: Unit, units: Vec<Unit>) -> Structure {
     let mut composed = Composed::new(kept, joints, units);
-    composed.settle();
-    composed.structure()
+    let settled = composed.settle();
+    let viewed: Vec<Arc<Viewed>> = settled.iter().map(|of| of.viewed.clone()).collect();
+    let modules = composed.modules.iter().zip(settled).zip(&viewed);
+    let found = modules.map(|((unit, of), viewed)| kept.module(unit, &of.view, viewed, of.logic));
+    composed.structure(&found.collect::<Vec<_>>())
 }
 
 fn bits(netlist: &Netlist) -> [usize; 2] {
     let inputs = netlist.inputs.iter().map(|input| netlist.width(input.node) as usize);
     let outputs = netlist.outputs.iter().map(|output| netlist.width(output.driver) as usize);
     [inputs.sum(), outputs.sum()]
+}
+
+/// What is seen of an input bit, by the first one that has the same source.
+fn equal(first: &mut u32, input: u32) -> Seen {
+    if *first == u32::MAX {
+        *first = input;
+    }
+    if *first == input { Seen::Own } else { Seen::Same(*first) }
 }
 
 impl<'k> Composed<'k> {
@@ -72,43 +91,62 @@ impl<'k> Composed<'k> {
         let gives = ports.iter().map(|[_, outputs]| vec![Gives::Own; *outputs]).collect();
         let reads = ports.iter().map(|[inputs, _]| vec![1; *inputs]).collect();
         let wires = vec![Vec::new(); drivers.len()];
-        Composed { kept, modules, first, drivers, takers, wires, gives, reads, found: Vec::new() }
+        let mut outputs = vec![0];
+        outputs.extend(ports.iter().scan(0, |sum, [_, outputs]| {
+            *sum += outputs;
+            Some(*sum)
+        }));
+        Composed { kept, modules, first, drivers, takers, wires, gives, reads, outputs }
     }
 
-    fn settle(&mut self) {
+    fn settle(&mut self) -> Vec<Settled> {
         let joints = View { outside: true, ..View::default() };
-        let ports = self.kept.ports(&self.modules[0], &joints, &mut None);
-        for (bit, gives) in &ports.gives {
+        let joints = self.kept.viewed(&self.modules[0], &joints, &mut None);
+        for (bit, gives) in &joints.ports.gives {
             self.gives[0][*bit as usize] = *gives;
             if let Gives::Input(input) = gives {
                 self.wires[*input as usize].push(*bit);
             }
         }
-        let mut views: Vec<View> = vec![View::default(); self.modules.len()];
-        let mut logic: Vec<Option<Logic>> = self.modules.iter().map(|_| None).collect();
+        let mut settled: Vec<Option<Settled>> = self.modules.iter().map(|_| None).collect();
+        // Steps in which a port said something new, and in which a module was last looked at.
+        let (mut step, mut news, mut looked) = (1, 1, vec![0; self.modules.len()]);
         for round in 0..ROUNDS {
-            let mut news = false;
             for place in 0..self.modules.len() {
                 // Unread bits are told from the last unit to the first. Constant and equal bits are told the other way.
                 let place = if round % 2 == 0 { self.modules.len() - 1 - place } else { place };
-                let view = self.view(place);
-                if view == views[place] {
+                if looked[place] >= news {
                     continue;
                 }
-                news = true;
-                let ports = self.kept.ports(&self.modules[place], &view, &mut logic[place]);
-                for (bit, gives) in &ports.gives {
-                    self.gives[place][*bit as usize] = *gives;
+                let view = self.view(place);
+                looked[place] = step;
+                step += 1;
+                if settled[place].as_ref().is_some_and(|before| before.view == view) {
+                    continue;
                 }
-                self.reads[place].clone_from(&ports.reads);
-                views[place] = view;
+                let mut logic = None;
+                let viewed = self.kept.viewed(&self.modules[place], &view, &mut logic);
+                if self.told(place, &viewed) {
+                    (news, step) = (step, step + 1);
+                }
+                settled[place] = Some(Settled { view, viewed, logic });
             }
-            if !news {
+            if looked.iter().all(|looked| *looked >= news) {
                 break;
             }
         }
-        let modules = self.modules.iter().zip(views).zip(logic);
-        self.found = modules.map(|((unit, view), logic)| self.kept.module(unit, view, logic)).collect();
+        settled.into_iter().flatten().collect()
+    }
+
+    /// Takes over what a module says of its ports; whether it is new.
+    fn told(&mut self, place: usize, viewed: &Viewed) -> bool {
+        let mut new = false;
+        for (bit, gives) in &viewed.ports.gives {
+            new |= std::mem::replace(&mut self.gives[place][*bit as usize], *gives) != *gives;
+        }
+        new |= self.reads[place] != viewed.ports.reads;
+        self.reads[place].clone_from(&viewed.ports.reads);
+        new
     }
 
     /// Where an input bit of a module comes from.
@@ -132,7 +170,9 @@ impl<'k> Composed<'k> {
 
     fn view(&self, module: usize) -> View {
         let inputs = self.reads[module].len();
-        let mut first: QuickMap<Source, u32> = QuickMap::with_capacity_and_hasher(inputs, Default::default());
+        // By output of all modules, then by input of the machine: the first input bit that is equal to it.
+        let outputs = self.outputs[self.modules.len()];
+        let mut first = vec![u32::MAX; outputs + self.drivers.len()];
         let mut seen = |input: usize| match self.source(module, input) {
             Source::Constant(value) => Seen::Constant(value),
             // What joins the units takes a bit from the unit that computes it, not from one that passes it on.
@@ -142,10 +182,10 @@ impl<'k> Composed<'k> {
                     other => Seen::Same(other),
                 }
             }
-            source => match *first.entry(source).or_insert(input as u32) {
-                other if other == input as u32 => Seen::Own,
-                other => Seen::Same(other),
-            },
+            Source::Outside(bit) => equal(&mut first[outputs + bit as usize], input as u32),
+            Source::Of(of, output) => {
+                equal(&mut first[self.outputs[of as usize] + output as usize], input as u32)
+            }
         };
         let inputs = (0..inputs).map(&mut seen).collect();
         let taken = |output: usize| match self.takers[output] as usize {
@@ -166,9 +206,9 @@ impl<'k> Composed<'k> {
         View { inputs, readers, outside: module == 0, inside: module > 0 }
     }
 
-    fn structure(&self) -> Structure {
-        let sum = |of: fn(&Module) -> u64| self.found.iter().map(|module| of(module)).sum();
-        let tables = self.modules.iter().zip(&self.found).map(|(unit, found)| UnitTables {
+    fn structure(&self, found: &[&Module]) -> Structure {
+        let sum = |of: fn(&Module) -> u64| found.iter().map(|module| of(module)).sum();
+        let tables = self.modules.iter().zip(found).map(|(unit, found)| UnitTables {
             unit: unit.name.clone(),
             tables: found.tables.iter().map(|(_, tables)| tables).sum(),
         });
@@ -180,25 +220,25 @@ impl<'k> Composed<'k> {
             ram: sum(|module| module.ram),
             lone_ff: sum(|module| module.lone_ff),
             lone_carry: sum(|module| module.lone_carry),
-            path: self.longest(),
+            path: self.longest(found),
         }
     }
 
     /// The longest way from register to register, through as many modules as it takes.
-    fn longest(&self) -> Path {
+    fn longest(&self, modules: &[&Module]) -> Path {
         let mut known = QuickMap::default();
         let mut longest: Option<Way> = None;
-        for (place, found) in self.found.iter().enumerate() {
+        for (place, found) in modules.iter().enumerate() {
             longer(&mut longest, found.ways.within);
             for (input, end) in &found.ways.ends {
-                if let Some(way) = self.arrival(self.source(place, *input as usize), &mut known) {
+                if let Some(way) = self.arrival(modules, self.source(place, *input as usize), &mut known) {
                     longer(&mut longest, way.then(end));
                 }
             }
         }
         let outputs = self.takers.iter().enumerate().filter(|(_, taker)| **taker == 0);
         for (output, _) in outputs {
-            if let Some(way) = self.arrival(Source::Of(0, output as u32), &mut known) {
+            if let Some(way) = self.arrival(modules, Source::Of(0, output as u32), &mut known) {
                 longer(&mut longest, way);
             }
         }
@@ -206,7 +246,12 @@ impl<'k> Composed<'k> {
     }
 
     /// The longest way to a bit.
-    fn arrival(&self, source: Source, known: &mut QuickMap<Source, Option<Way>>) -> Option<Way> {
+    fn arrival(
+        &self,
+        modules: &[&Module],
+        source: Source,
+        known: &mut QuickMap<Source, Option<Way>>,
+    ) -> Option<Way> {
         let Source::Of(module, mut output) = source else { return Some(Way::default()) };
         if let Some(way) = known.get(&source) {
             return *way;
@@ -214,15 +259,15 @@ impl<'k> Composed<'k> {
         match self.gives[module as usize][output as usize] {
             Gives::Constant(_) => return None,
             Gives::Input(input) => {
-                return self.arrival(self.source(module as usize, input as usize), known);
+                return self.arrival(modules, self.source(module as usize, input as usize), known);
             }
             Gives::Same(other) => output = other,
             Gives::Own => {}
         }
-        let ways = &self.found[module as usize].ways;
+        let ways = &modules[module as usize].ways;
         let mut longest = ways.begins.get(&output).copied();
         for (input, through) in ways.through.get(&output).into_iter().flatten() {
-            if let Some(way) = self.arrival(self.source(module as usize, *input as usize), known) {
+            if let Some(way) = self.arrival(modules, self.source(module as usize, *input as usize), known) {
                 longer(&mut longest, way.then(through));
             }
         }

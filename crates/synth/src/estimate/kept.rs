@@ -10,7 +10,7 @@ use edgewalk_machine::Plan;
 use edgewalk_netlist::netlist::Source;
 use edgewalk_netlist::{BuildErrors, Netlist};
 use std::hash::{Hash, Hasher};
-use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError};
 
 /// A module of a machine.
 #[derive(Clone)]
@@ -27,11 +27,18 @@ impl Unit {
     }
 }
 
+/// A module as it is looked at.
+pub(super) struct Viewed {
+    pub ports: Ports,
+    /// Set when somebody asks for it.
+    module: OnceLock<Module>,
+}
+
 /// Modules of the machines that were estimated so far. A module that several machines have is worked out once.
 pub struct Kept {
     delays: Delays,
-    ports: Mutex<QuickMap<(u64, View), Arc<Ports>>>,
-    modules: Mutex<QuickMap<(u64, View), Arc<Module>>>,
+    /// By the number of the netlist and the view.
+    modules: Mutex<QuickMap<u64, QuickMap<View, Arc<Viewed>>>>,
     /// By name and keys.
     units: Mutex<QuickMap<(&'static str, Vec<u32>), Unit>>,
 }
@@ -40,7 +47,7 @@ impl Kept {
     /// Nothing is kept so far.
     #[must_use]
     pub fn new(delays: Delays) -> Kept {
-        Kept { delays, ports: Mutex::default(), modules: Mutex::default(), units: Mutex::default() }
+        Kept { delays, modules: Mutex::default(), units: Mutex::default() }
     }
 
     /// Of a module with all that is in it.
@@ -70,30 +77,29 @@ impl Kept {
         }
     }
 
-    /// What a module says of its ports; its logic stays with the caller if it had to be worked out.
-    pub(super) fn ports(&self, unit: &Unit, view: &View, logic: &mut Option<Logic>) -> Arc<Ports> {
+    /// A module looked at so; its logic stays with the caller if it had to be worked out.
+    pub(super) fn viewed(&self, unit: &Unit, view: &View, logic: &mut Option<Logic>) -> Arc<Viewed> {
         *logic = None;
-        let key = (unit.number, view.clone());
-        let known = open(&self.ports).get(&key).cloned();
+        let known = open(&self.modules).get(&unit.number).and_then(|views| views.get(view)).cloned();
         known.unwrap_or_else(|| {
             let made = Logic::of(&unit.netlist, view);
-            let ports = Arc::new(made.ports(view));
+            let viewed = Arc::new(Viewed { ports: made.ports(view), module: OnceLock::new() });
             *logic = Some(made);
-            open(&self.ports).insert(key, ports.clone());
-            ports
+            open(&self.modules).entry(unit.number).or_default().insert(view.clone(), viewed.clone());
+            viewed
         })
     }
 
     /// What a module comes to; `logic` is that of the module if it was worked out.
-    pub(super) fn module(&self, unit: &Unit, view: View, logic: Option<Logic>) -> Arc<Module> {
-        let key = (unit.number, view);
-        let known = open(&self.modules).get(&key).cloned();
-        known.unwrap_or_else(|| {
-            let logic = logic.unwrap_or_else(|| Logic::of(&unit.netlist, &key.1));
-            let module = Arc::new(logic.module(&self.delays));
-            open(&self.modules).insert(key, module.clone());
-            module
-        })
+    pub(super) fn module<'v>(
+        &self,
+        unit: &Unit,
+        view: &View,
+        viewed: &'v Viewed,
+        logic: Option<Logic>,
+    ) -> &'v Module {
+        let logic = || logic.unwrap_or_else(|| Logic::of(&unit.netlist, view));
+        viewed.module.get_or_init(|| logic().module(&self.delays))
     }
 
     /// A unit of a machine, built if no machine before had the same.

@@ -1,7 +1,9 @@
 //! What is known at the ports of a module that stands among others.
 
+use std::hash::{Hash, Hasher};
+
 /// A bit at a port.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Seen {
     /// Nothing is known of it.
     Own,
@@ -12,7 +14,7 @@ pub(super) enum Seen {
 }
 
 /// How a module is looked at. Bits are numbered through the ports in their order.
-#[derive(Clone, Debug, Default, PartialEq, Eq, Hash)]
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(super) struct View {
     /// By input bit; beyond the end nothing is known.
     pub inputs: Vec<Seen>,
@@ -31,5 +33,21 @@ impl View {
 
     pub fn readers(&self, output: usize) -> u8 {
         self.readers.get(output).copied().unwrap_or(1)
+    }
+}
+
+/// Two input bits a word: views are looked up for each module of each machine.
+impl Hash for View {
+    fn hash<H: Hasher>(&self, hash: &mut H) {
+        let number = |seen: &Seen| match seen {
+            Seen::Own => 0,
+            Seen::Constant(value) => 1 + u64::from(*value),
+            Seen::Same(other) => 3 + u64::from(*other),
+        };
+        for pair in self.inputs.chunks(2) {
+            hash.write_u64(pair.iter().fold(0, |word, seen| word << 32 | number(seen)));
+        }
+        self.readers.hash(hash);
+        (self.outside, self.inside).hash(hash);
     }
 }
