@@ -2,13 +2,13 @@
 //! until nothing new is said.
 
 use super::delay::Path;
-use super::graph::QuickMap;
 use super::kept::{Kept, Unit, Viewed};
 use super::module::{Gives, Logic, Module, OFTEN};
 use super::ports::{Seen, View};
 use super::structure::{Structure, UnitTables};
 use super::ways::{Way, longer};
 use edgewalk_netlist::Netlist;
+use std::num::NonZeroU32;
 use std::sync::Arc;
 
 /// Rounds at most.
@@ -34,8 +34,10 @@ struct Composed<'k> {
     drivers: Vec<u32>,
     /// By output bit of what joins the units: the module that reads it. Outputs of the machine have none.
     takers: Vec<u32>,
-    /// By input bit of what joins the units: outputs that only hand it on.
-    wires: Vec<Vec<u32>>,
+    /// Outputs of what joins the units that only hand an input bit on, in the order of these bits.
+    wires: Vec<u32>,
+    /// By input bit of what joins the units: where its outputs begin in `wires`. The last number is that of all.
+    wired: Vec<usize>,
     gives: Vec<Vec<Gives>>,
     reads: Vec<Vec<u8>>,
     /// By module: where its outputs begin among the outputs of all modules. The last number is that of all.
@@ -90,23 +92,30 @@ impl<'k> Composed<'k> {
         let modules = [joints].into_iter().chain(units).collect();
         let gives = ports.iter().map(|[_, outputs]| vec![Gives::Own; *outputs]).collect();
         let reads = ports.iter().map(|[inputs, _]| vec![1; *inputs]).collect();
-        let wires = vec![Vec::new(); drivers.len()];
         let mut outputs = vec![0];
         outputs.extend(ports.iter().scan(0, |sum, [_, outputs]| {
             *sum += outputs;
             Some(*sum)
         }));
-        Composed { kept, modules, first, drivers, takers, wires, gives, reads, outputs }
+        let wired = vec![0; drivers.len() + 1];
+        Composed { kept, modules, first, drivers, takers, wires: Vec::new(), wired, gives, reads, outputs }
     }
 
     fn settle(&mut self) -> Vec<Settled> {
         let joints = View { outside: true, ..View::default() };
         let joints = self.kept.viewed(&self.modules[0], &joints, &mut None);
+        let mut wires = Vec::new();
         for (bit, gives) in &joints.ports.gives {
             self.gives[0][*bit as usize] = *gives;
             if let Gives::Input(input) = gives {
-                self.wires[*input as usize].push(*bit);
+                wires.push((*input, *bit));
+                self.wired[*input as usize + 1] += 1;
             }
+        }
+        wires.sort_unstable();
+        self.wires = wires.into_iter().map(|(_, output)| output).collect();
+        for input in 1..self.wired.len() {
+            self.wired[input] += self.wired[input - 1];
         }
         let mut settled: Vec<Option<Settled>> = self.modules.iter().map(|_| None).collect();
         // Steps in which a port said something new, and in which a module was last looked at.
@@ -197,8 +206,8 @@ impl<'k> Composed<'k> {
             0 => taken(output),
             unit => {
                 let input = self.first[unit][1] + output;
-                let wires: u8 =
-                    self.wires[input].iter().map(|wire| taken(*wire as usize)).fold(0, u8::saturating_add);
+                let wires = &self.wires[self.wired[input]..self.wired[input + 1]];
+                let wires = wires.iter().map(|wire| taken(*wire as usize)).fold(0, u8::saturating_add);
                 (self.reads[0][input] + wires).min(OFTEN)
             }
         };
@@ -226,52 +235,65 @@ impl<'k> Composed<'k> {
 
     /// The longest way from register to register, through as many modules as it takes.
     fn longest(&self, modules: &[&Module]) -> Path {
-        let mut known = QuickMap::default();
+        let mut arrivals = Arrivals {
+            composed: self,
+            modules,
+            known: vec![None; self.outputs[self.modules.len()]],
+            ways: Vec::new(),
+        };
         let mut longest: Option<Way> = None;
         for (place, found) in modules.iter().enumerate() {
             longer(&mut longest, found.ways.within);
             for (input, end) in &found.ways.ends {
-                if let Some(way) = self.arrival(modules, self.source(place, *input as usize), &mut known) {
+                if let Some(way) = arrivals.at(self.source(place, *input as usize)) {
                     longer(&mut longest, way.then(end));
                 }
             }
         }
         let outputs = self.takers.iter().enumerate().filter(|(_, taker)| **taker == 0);
         for (output, _) in outputs {
-            if let Some(way) = self.arrival(modules, Source::Of(0, output as u32), &mut known) {
+            if let Some(way) = arrivals.at(Source::Of(0, output as u32)) {
                 longer(&mut longest, way);
             }
         }
         longest.unwrap_or_default().path
     }
+}
 
-    /// The longest way to a bit.
-    fn arrival(
-        &self,
-        modules: &[&Module],
-        source: Source,
-        known: &mut QuickMap<Source, Option<Way>>,
-    ) -> Option<Way> {
+/// The longest ways to bits, each worked out once.
+struct Arrivals<'c> {
+    composed: &'c Composed<'c>,
+    modules: &'c [&'c Module],
+    /// By output of all modules: the place of its way among `ways`, once it is known.
+    known: Vec<Option<NonZeroU32>>,
+    ways: Vec<Option<Way>>,
+}
+
+impl Arrivals<'_> {
+    fn at(&mut self, source: Source) -> Option<Way> {
         let Source::Of(module, mut output) = source else { return Some(Way::default()) };
-        if let Some(way) = known.get(&source) {
-            return *way;
+        let Composed { outputs, gives, .. } = self.composed;
+        let slot = outputs[module as usize] + output as usize;
+        if let Some(place) = self.known[slot] {
+            return self.ways[place.get() as usize - 1];
         }
-        match self.gives[module as usize][output as usize] {
+        match gives[module as usize][output as usize] {
             Gives::Constant(_) => return None,
             Gives::Input(input) => {
-                return self.arrival(modules, self.source(module as usize, input as usize), known);
+                return self.at(self.composed.source(module as usize, input as usize));
             }
             Gives::Same(other) => output = other,
             Gives::Own => {}
         }
-        let ways = &modules[module as usize].ways;
+        let ways = &self.modules[module as usize].ways;
         let mut longest = ways.begins.get(&output).copied();
         for (input, through) in ways.through.get(&output).into_iter().flatten() {
-            if let Some(way) = self.arrival(modules, self.source(module as usize, *input as usize), known) {
+            if let Some(way) = self.at(self.composed.source(module as usize, *input as usize)) {
                 longer(&mut longest, way.then(through));
             }
         }
-        known.insert(source, longest);
+        self.ways.push(longest);
+        self.known[slot] = NonZeroU32::new(self.ways.len() as u32);
         longest
     }
 }
