@@ -41,6 +41,7 @@ use std::path::{Path, PathBuf};
     after_help = "Examples:
   edgewalk sweep teapot.obj --vary interpolator.adders=1,2,4 --vary formats.z_fraction=6..14 --out out/sweep
   edgewalk sweep sphere torus --vary memory.latency=1..8 --stalls none --stalls dram:miss=8 --out out/stalls
+  edgewalk sweep sphere torus --vary memory.latency=1..8 --weight sphere=3 --out out/weights
   edgewalk sweep teapot.obj --vary shade.kind=none,fast-phong,phong --out out/shading
   edgewalk sweep teapot.obj --vary setup.lanes=1,2,4 --synth ice40-hx8k --out out/cells
   edgewalk sweep teapot.obj --vary fifo.span=1..64 --vary fifo.inflight=1..16 --sample 100 --seed 7 --out out/some
@@ -96,6 +97,12 @@ struct What {
     /// Memory that counts in bests and fronts: worst (for each objective), sum (of the cycles), or one of --stalls
     #[arg(long, value_name = "WHICH", default_value = Judge::WORST)]
     judge: String,
+    /// What of several inputs counts: sum (of cycles and bytes; of everything else the worst), or worst (for each objective)
+    #[arg(long, value_name = "WHICH", default_value = Judge::SUM)]
+    judge_inputs: String,
+    /// Weight of an input in the sum of cycles and bytes (repeatable); 1 if left out
+    #[arg(long, value_name = "INPUT=NUMBER")]
+    weight: Vec<String>,
     /// Number of machines to take at random
     #[arg(long, value_name = "N", group = "some")]
     sample: Option<u32>,
@@ -226,6 +233,8 @@ impl What {
             vary: self.vary.clone(),
             stalls: self.stalls.clone(),
             judge: self.judge.clone(),
+            judge_inputs: self.judge_inputs.clone(),
+            weights: self.weight.clone(),
             sample: self.sample.map(|points| Sample { points, seed: self.seed.unwrap_or(1) }),
             search: self.search.map(|points| Sample { points, seed: self.seed.unwrap_or(1) }),
             bound: self.bound,

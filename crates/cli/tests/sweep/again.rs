@@ -290,7 +290,7 @@ fn a_plan_of_too_many_parts_is_refused_at_once() {
     let good = std::fs::read_to_string(&path).unwrap();
     let kept: Value = serde_json::from_str(&good).unwrap();
     assert_eq!(kept.as_object().unwrap().keys().next().unwrap(), "format");
-    assert_eq!((&kept["format"], &kept["version"]), (&json!("edgewalk-sweep-definition"), &json!([1, 2])));
+    assert_eq!((&kept["format"], &kept["version"]), (&json!("edgewalk-sweep-definition"), &json!([1, 3])));
     for chunks in ["4294967295", "0", "4"] {
         std::fs::write(&path, good.replace("\"chunks\": 2", &format!("\"chunks\": {chunks}"))).unwrap();
         for command in [&["merge"][..], &["run", "--chunk", "0"]] {
@@ -306,7 +306,7 @@ fn a_plan_of_too_many_parts_is_refused_at_once() {
     let (code, error) = run(at, &["sweep", "run", "--chunk", "0", "--out", "s"]);
     assert!(code == Some(2) && error.contains("--synth-seeds 4294967295: permitted: 1 to 1000"), "{error}");
     for (from, to, said) in
-        [("-definition", "-other", "edgewalk-sweep-other"), ("    1,\n", "    9,\n", "version 9.2")]
+        [("-definition", "-other", "edgewalk-sweep-other"), ("    1,\n", "    9,\n", "version 9.3")]
     {
         std::fs::write(&path, good.replace(from, to)).unwrap();
         let (code, error) = run(at, &["sweep", "merge", "--out", "s"]);

@@ -1,6 +1,6 @@
 //! Every figure that a sweep prints or writes, beside what follows from its rows.
 
-use super::oracle::{Asked, Axis, Judge, Machine, best, data, fronts, is, plain, pointer, table};
+use super::oracle::{Asked, Axis, Judge, Machine, Over, best, data, fronts, is, plain, pointer, table};
 use super::rows;
 use crate::support::{csv, edgewalk};
 use serde_json::{Value, json};
@@ -37,12 +37,39 @@ const MEMORIES: [&str; 3] =
     ["none", "random:seed=1,rd=200,data=64,wr=64", "dram:banks=4,page=256,miss=9,turn=2,refresh=780,busy=13"];
 const NAMES: [&str; 3] = ["none", "random:rd=200", "dram:miss=9"];
 
-/// A judge, as asked for and as the oracle knows it, with the objectives, none for those that are usual.
-const ASKED: [(&str, Judge, &[&str]); 4] = [
-    ("worst", Judge::Worst, &[]),
-    ("sum", Judge::Sum, &["cycles", "z_bound"]),
-    ("none", Judge::Only(0), &["color_error", "word_bits", "cycles"]),
-    ("dram:miss=9", Judge::Only(2), &["z_error", "color_bound", "word_bits", "cycles"]),
+/// How rows count together, as asked for and as the oracle knows it; the objectives, none for those that are usual; and what
+/// text says of the inputs.
+type How = (&'static str, Judge, &'static [&'static str], Over, &'static [&'static str], &'static str);
+
+const SUMMED: &str = "Of 3 inputs the cycles are summed, and the worst of every other figure counts";
+const ASKED: [How; 6] = [
+    ("worst", Judge::Worst, &[], Over::Sum([1.0; 3]), &[], SUMMED),
+    ("sum", Judge::Sum, &["cycles", "z_bound"], Over::Sum([1.0; 3]), &[], SUMMED),
+    ("none", Judge::Only(0), &["color_error", "word_bits", "cycles"], Over::Sum([1.0; 3]), &[], SUMMED),
+    (
+        "dram:miss=9",
+        Judge::Only(2),
+        &["z_error", "color_bound", "word_bits", "cycles"],
+        Over::Sum([1.0; 3]),
+        &["--judge-inputs", "sum"],
+        SUMMED,
+    ),
+    (
+        "worst",
+        Judge::Worst,
+        &[],
+        Over::Sum([1.0, 0.125, 300.0]),
+        &["--weight", "own.tri=300", "--weight", "torus=0.125"],
+        "Of 3 inputs the cycles are summed (own.tri times 300, torus times 0.125), and the worst of every other figure",
+    ),
+    (
+        "sum",
+        Judge::Sum,
+        &["cycles", "color_error"],
+        Over::Worst,
+        &["--judge-inputs", "worst"],
+        "Of 3 inputs the worst counts, for each figure apart",
+    ),
 ];
 
 struct Ran<'a> {
@@ -51,6 +78,7 @@ struct Ran<'a> {
     rows: Vec<Value>,
     objectives: Vec<&'a str>,
     judge: Judge,
+    inputs_said: &'a str,
     fronts: Vec<Option<u64>>,
     bests: Vec<(&'a str, usize)>,
 }
@@ -61,9 +89,10 @@ fn every_figure_follows_from_the_rows() {
     let at = folder.path();
     std::fs::write(at.join("own.tri"), OWN).unwrap();
     let mut checked = 0;
-    for (place, (judge, of, objectives)) in ASKED.into_iter().enumerate() {
+    for (place, (judge, of, objectives, over, more, inputs_said)) in ASKED.into_iter().enumerate() {
         let mut arguments: Vec<&str> = SWEEP.to_vec();
         arguments.extend(["--judge", judge]);
+        arguments.extend(more);
         objectives.iter().for_each(|name| arguments.extend(["--objective", name]));
         let said = |last: &[&str]| {
             let output = edgewalk(at, &[&arguments[..], last].concat()).output().unwrap();
@@ -76,7 +105,7 @@ fn every_figure_follows_from_the_rows() {
         let keys = ["formats.z_fraction", "formats.color_fraction", "interpolator.adders"];
         let axes = [0, 1, 2].map(|i| (keys[i], values[i]));
         let rows = rows(&at.join("s"));
-        let machines = Asked { axes: &axes, inputs: &INPUTS, memories: &MEMORIES }.machines(&rows);
+        let machines = Asked { axes: &axes, inputs: &INPUTS, memories: &MEMORIES, over }.machines(&rows);
         let usual = ["cycles", "z_error", "color_error", "word_bits"];
         let objectives = if objectives.is_empty() { usual.to_vec() } else { objectives.to_vec() };
         let bests =
@@ -90,6 +119,7 @@ fn every_figure_follows_from_the_rows() {
             rows,
             objectives,
             judge: of,
+            inputs_said,
         };
         for (row, channel) in ran.rows.iter().flat_map(|row| ["z", "color"].map(|channel| (row, channel))) {
             let figure = |name: &str| row["report"]["comparison"][format!("{channel}_{name}")].as_f64();
@@ -171,10 +201,7 @@ impl Ran<'_> {
             Judge::Sum => "by the sum over the memories none, random:rd=200, dram:miss=9",
             Judge::Only(memory) => &format!("by the memory {}", NAMES[memory]),
         };
-        assert!(
-            judged.starts_with("Of 3 inputs the cycles are summed") && judged.ends_with(words),
-            "{judged}"
-        );
+        assert!(judged.starts_with(self.inputs_said) && judged.ends_with(words), "{judged}");
         let mut checked = 3;
         for (name, place) in &self.bests {
             let words: Vec<&str> = lines.next().unwrap().split_whitespace().collect();

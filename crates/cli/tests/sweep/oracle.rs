@@ -114,6 +114,14 @@ const OBJECTIVES: [(&str, &str, bool, bool); 9] = [
 pub struct Machine {
     pub keys: Vec<(String, Value)>,
     pub rows: Vec<Vec<Value>>,
+    pub over: Over,
+}
+
+/// How inputs count together: cycles summed with these weights, or the worst input.
+#[derive(Clone, Copy)]
+pub enum Over {
+    Sum([f64; 3]),
+    Worst,
 }
 
 /// A sweep as it was asked for.
@@ -123,6 +131,7 @@ pub struct Asked<'a> {
     pub inputs: &'a [&'a str],
     /// As rows have them.
     pub memories: &'a [&'a str],
+    pub over: Over,
 }
 
 impl Asked<'_> {
@@ -148,7 +157,7 @@ impl Asked<'_> {
         let of = |keys: Vec<(String, Value)>| {
             let memory = |memory: &&str| self.inputs.iter().map(|input| find(&keys, memory, input)).collect();
             let rows = self.memories.iter().map(memory).collect();
-            Machine { keys, rows }
+            Machine { keys, rows, over: self.over }
         };
         all.into_iter().map(of).collect()
     }
@@ -169,10 +178,13 @@ impl Machine {
         let values: Option<Vec<f64>> =
             self.rows[memory].iter().map(|row| row.pointer(&at)?.as_f64()).collect();
         let values = values?;
-        Some(match (sums, most) {
-            (true, _) => values.iter().sum(),
-            (false, false) => values.into_iter().fold(f64::MIN, f64::max),
-            (false, true) => values.into_iter().fold(f64::MAX, f64::min),
+        Some(match (sums, most, self.over) {
+            (true, _, Over::Sum(weights)) => {
+                assert_eq!(values.len(), weights.len());
+                values[0] * weights[0] + values[1] * weights[1] + values[2] * weights[2]
+            }
+            (_, false, _) => values.into_iter().fold(f64::MIN, f64::max),
+            (_, true, _) => values.into_iter().fold(f64::MAX, f64::min),
         })
     }
 
@@ -197,12 +209,13 @@ impl Machine {
 
     /// The memories whose causes are told.
     pub fn deciding(&self, judge: Judge) -> Vec<usize> {
-        let cycles = self.cycles();
-        let most = cycles.iter().max().unwrap();
+        let cycles: Vec<f64> =
+            (0..self.rows.len()).map(|memory| self.of_memory(memory, "cycles").unwrap()).collect();
+        let most = cycles.iter().copied().fold(f64::MIN, f64::max);
         match judge {
             Judge::Only(memory) => vec![memory],
             Judge::Sum => (0..cycles.len()).collect(),
-            Judge::Worst => vec![cycles.iter().position(|cycles| cycles == most).unwrap()],
+            Judge::Worst => vec![cycles.iter().position(|cycles| *cycles == most).unwrap()],
         }
     }
 

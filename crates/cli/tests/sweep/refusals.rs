@@ -3,7 +3,7 @@
 use crate::support::{edgewalk, names, run};
 
 /// Arguments behind `sweep`, and what the error must say.
-const REFUSED: [(&[&str], &[&str]); 24] = [
+const REFUSED: [(&[&str], &[&str]); 31] = [
     (
         &["sphere", "--vary", "interpolator.ader=1,2"],
         &["unknown key interpolator.ader", "nearest: interpolator.adders"],
@@ -46,6 +46,31 @@ const REFUSED: [(&[&str], &[&str]); 24] = [
         &["--judge dram", "permitted: worst, sum, none"],
     ),
     (&["sphere", "--vary", "setup.lanes=1", "--judge", "wost"], &["--judge wost", "nearest: worst"]),
+    (
+        &["sphere", "--vary", "setup.lanes=1", "--judge-inputs", "wost"],
+        &["--judge-inputs wost", "permitted: sum, worst", "nearest: worst"],
+    ),
+    (
+        &["sphere", "--vary", "setup.lanes=1", "--judge-inputs", "worst", "--weight", "sphere=2"],
+        &["--weight: weights are those of a sum"],
+    ),
+    (&["sphere", "--vary", "setup.lanes=1", "--weight", "sphere"], &["--weight sphere: write INPUT=NUMBER"]),
+    (
+        &["sphere", "--vary", "setup.lanes=1", "--weight", "spehre=2"],
+        &["--weight spehre=2: unknown input spehre", "nearest: sphere"],
+    ),
+    (
+        &["sphere", "--vary", "setup.lanes=1", "--weight", "sphere=0"],
+        &["`0`: permitted: a finite number above 0"],
+    ),
+    (
+        &["sphere", "--vary", "setup.lanes=1", "--weight", "sphere=inf"],
+        &["`inf`: permitted: a finite number"],
+    ),
+    (
+        &["sphere", "--vary", "setup.lanes=1", "--weight", "sphere=2", "--weight", "sphere=3"],
+        &["--weight sphere=3: sphere has a weight already; give it once"],
+    ),
     (&["sphere", "--vary", "setup.lanes=1", "--stalls", "drm"], &["drm", "nearest: dram"]),
     (&["sphere", "--vary", "setup.lanes=1", "--stalls", "fixed:rd=x"], &["rd = x", "0 to 1048576"]),
     (&["sphere", "--vary", "setup.lanes=1", "--bound", "0.4"], &["--bound 0.4", "above 0.5"]),

@@ -13,14 +13,9 @@ const SHOWN: usize = 60;
 /// How the rows of a machine count together; none where it has one.
 #[must_use]
 pub fn rule(sweep: &Sweep) -> Option<String> {
-    let inputs = (sweep.inputs.len() > 1).then(|| {
-        format!(
-            "Of {} inputs the cycles are summed, and the worst of every other figure counts",
-            sweep.inputs.len()
-        )
-    });
+    let inputs = (sweep.inputs.len() > 1).then(|| sweep.judge.inputs.words(&sweep.inputs));
     let memories = (sweep.memories.len() > 1)
-        .then(|| format!("Machines are judged {}", sweep.judge.words(&sweep.memories)));
+        .then(|| format!("Machines are judged {}", sweep.judge.memories.words(&sweep.memories)));
     let rules: Vec<String> = inputs.into_iter().chain(memories).collect();
     (!rules.is_empty()).then(|| rules.join(". "))
 }
@@ -95,7 +90,7 @@ pub fn bests(table: &Table) -> String {
 /// The first front, with the causes of cycles.
 pub fn front(table: &Table) -> String {
     let on: Vec<&Candidate> = table.first_front().collect();
-    let (memories, judge) = (&table.sweep.memories, table.sweep.judge);
+    let (memories, judge) = (&table.sweep.memories, &table.sweep.judge);
     let shown =
         if on.len() > SHOWN { format!(", {SHOWN} of them here, all in runs.csv") } else { String::new() };
     let mut html = format!(

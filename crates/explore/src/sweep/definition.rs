@@ -26,6 +26,10 @@ pub struct Definition {
     pub stalls: Vec<String>,
     /// How several memories count together, as `--judge` has it.
     pub judge: String,
+    /// How several inputs count together, as `--judge-inputs` has it.
+    pub judge_inputs: String,
+    /// Weights of inputs, as `--weight` has them.
+    pub weights: Vec<String>,
     /// So many of the machines, by seed.
     pub sample: Option<Sample>,
     /// So many machines of a search through a space that is not run whole, by seed.
@@ -50,7 +54,7 @@ impl Definition {
     /// Name of the format.
     pub const FORMAT: &str = "edgewalk-sweep-definition";
     /// Version of the definition's format.
-    pub const FORMAT_VERSION: [u32; 2] = [1, 2];
+    pub const FORMAT_VERSION: [u32; 2] = [1, 3];
 }
 
 /// The default machine on no input yet: a starting point.
@@ -66,6 +70,8 @@ impl Default for Definition {
             vary: Vec::new(),
             stalls: Vec::new(),
             judge: Judge::WORST.to_owned(),
+            judge_inputs: Judge::SUM.to_owned(),
+            weights: Vec::new(),
             sample: None,
             search: None,
             bound: None,

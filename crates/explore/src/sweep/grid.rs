@@ -2,7 +2,7 @@
 
 use super::axis::Axis;
 use super::definition::{Definition, Sample, Synthesis};
-use super::judge::{Judge, Memory};
+use super::judge::{Judge, Memory, OverInputs, OverMemories};
 use super::objective::Objective;
 use super::point::{Identity, Point};
 use super::require::Requirement;
@@ -40,7 +40,7 @@ pub struct Sweep {
     pub inputs: Vec<Subject>,
     /// The memories that every machine is run with.
     pub memories: Vec<Memory>,
-    /// How the memories count together.
+    /// How the rows of a machine count together.
     pub judge: Judge,
     /// What is best.
     pub objectives: Vec<Objective>,
@@ -74,7 +74,7 @@ impl Sweep {
             }
         }
         let memories = Memory::list(&definition.stalls)?;
-        let judge = Judge::parse(&definition.judge, &memories)?;
+        let over_memories = OverMemories::parse(&definition.judge, &memories)?;
         check_bound(definition.bound)?;
         check_seeds(definition.synth.as_ref())?;
         let base = Machine::from_toml(&definition.machine).map_err(|e| anyhow!("{e}"))?;
@@ -97,6 +97,8 @@ impl Sweep {
         };
         check_chunks(definition.chunks, chosen.len() * rows)?;
         let inputs = inputs(&definition.inputs, &shadings)?;
+        let over_inputs = OverInputs::parse(&definition.judge_inputs, &definition.weights, &inputs)?;
+        let judge = Judge { memories: over_memories, inputs: over_inputs };
         let mut sweep = Sweep {
             definition,
             axes,

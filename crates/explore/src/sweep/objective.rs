@@ -17,7 +17,7 @@ pub struct Objective {
     pub synth: bool,
     /// The estimate gives it.
     pub estimate: bool,
-    /// Of several inputs the sum counts; else the worst.
+    /// Of several inputs the sum counts where [`super::Judge`] sums; else the worst.
     pub sums: bool,
     /// With its unit, in words.
     pub doc: &'static str,
@@ -137,13 +137,6 @@ impl Objective {
     #[must_use]
     pub fn of(&self, row: &Value) -> Option<f64> {
         row.pointer(self.pointer)?.as_f64()
-    }
-
-    /// Of a machine on several inputs, whose rows these are; none if one of them has none.
-    #[must_use]
-    pub fn of_all(&self, rows: &[&Value]) -> Option<f64> {
-        let values = rows.iter().map(|row| self.of(row)).collect::<Option<Vec<f64>>>()?;
-        if self.sums { Some(values.iter().sum()) } else { self.worst(values) }
     }
 
     /// The worst of several values; none of no value.

@@ -162,7 +162,7 @@ impl Requirement {
 
     /// Whether a machine, whose rows these are, breaks it. What is not known breaks nothing.
     #[must_use]
-    pub fn rules_out(&self, judge: Judge, rows: &[Vec<&Value>]) -> bool {
+    pub fn rules_out(&self, judge: &Judge, rows: &[Vec<&Value>]) -> bool {
         match self {
             Requirement::Fits(device) => rows.iter().flatten().any(|row| fits(row, device) == Some(false)),
             Requirement::Figure { objective, .. } => {
@@ -172,12 +172,12 @@ impl Requirement {
         }
     }
 
-    /// Whether a row of one input breaks it: then all the machine's rows do.
+    /// Whether a row of one input, with a memory that counts, breaks it: then all the machine's rows do.
     #[must_use]
-    pub fn broken_by(&self, row: &Value) -> bool {
+    pub fn broken_by(&self, judge: &Judge, row: &Value) -> bool {
         match self {
             Requirement::Figure { objective, at_least: false, .. } if !objective.most => {
-                objective.of(row).is_some_and(|value| !self.keeps(value))
+                judge.of_memory(objective, &[row]).is_some_and(|value| !self.keeps(value))
             }
             _ => false,
         }
@@ -220,4 +220,25 @@ fn first(text: &str) -> String {
 fn fits(row: &Value, device: &str) -> Option<bool> {
     let list = row.pointer("/estimate/fits")?.as_array()?;
     list.iter().find(|of| of["device"] == device)?["fits"].as_bool()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Requirement;
+    use crate::sweep::judge::{Judge, OverInputs, OverMemories};
+    use serde_json::json;
+
+    #[test]
+    fn a_row_alone_breaks_what_its_weighted_sum_breaks() {
+        let required = Requirement::list(&["cycles<=100".to_owned()], &[], None).expect("a requirement");
+        let row = json!({ "input": "a", "report": { "cycles": { "total": 150 } } });
+        for (weight, breaks) in [(1.0, true), (0.7, true), (0.6, false)] {
+            let inputs = OverInputs::Sum(vec![("a".to_owned(), weight)]);
+            let judge = Judge { memories: OverMemories::Worst, inputs };
+            assert_eq!(required[0].broken_by(&judge, &row), breaks, "{weight}");
+        }
+        let counts = |memories: OverMemories| [0, 1].map(|memory| memories.count(memory));
+        assert_eq!(counts(OverMemories::Only(1)), [false, true]);
+        assert_eq!(counts(OverMemories::Sum), [true, true]);
+    }
 }

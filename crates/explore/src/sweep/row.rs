@@ -128,8 +128,9 @@ pub fn with_figures(
         row["estimate"] = estimate;
     }
     // A machine that breaks a requirement already is not built.
-    let broken = sweep.requirements.iter().find(|requirement| requirement.broken_by(&row));
-    match synthesise.filter(|_| broken.is_none()).map(|synthesise| synthesise(plan)) {
+    let counts = sweep.judge.memories.count(point.memory);
+    let broken = counts && sweep.requirements.iter().any(|of| of.broken_by(&sweep.judge, &row));
+    match synthesise.filter(|_| !broken).map(|synthesise| synthesise(plan)) {
         None => {}
         Some(Ok(synth)) => row["synth"] = synth,
         Some(Err((status, reason))) => {

@@ -194,7 +194,7 @@ fn costs_of(sweep: &Sweep, machine: usize, reach: usize, rows: &BTreeMap<String,
     let own = (0..sweep.memories.len())
         .map(|memory| (0..reach).map(|input| row(memory, input)).collect::<Option<Vec<_>>>())
         .collect::<Option<Vec<_>>>()?;
-    if sweep.requirements.iter().any(|requirement| requirement.rules_out(sweep.judge, &own)) {
+    if sweep.requirements.iter().any(|requirement| requirement.rules_out(&sweep.judge, &own)) {
         return None;
     }
     let value = |objective: &super::Objective| Some(objective.cost(sweep.judge.value(objective, &own)?));

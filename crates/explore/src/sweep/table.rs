@@ -2,8 +2,8 @@
 
 use super::front::fronts;
 use super::grid::Sweep;
-use super::judge::Judge;
-use super::objective::Objective;
+use super::judge::{Judge, OverMemories};
+use super::objective::{OBJECTIVES, Objective};
 use super::row::{Status, causes, is_beyond};
 use serde_json::Value;
 use std::cmp::Ordering;
@@ -52,13 +52,17 @@ impl<'t> Candidate<'t> {
 
     /// The memories that decide the machine's cycles, by their places.
     #[must_use]
-    pub fn deciding(&self, judge: Judge) -> Vec<usize> {
+    pub fn deciding(&self, judge: &Judge) -> Vec<usize> {
         let all = 0..self.rows.len();
-        match judge {
-            Judge::Only(memory) => vec![memory],
-            Judge::Sum => all.collect(),
+        let [cycles, ..] = OBJECTIVES else { return Vec::new() };
+        let cycles = |memory: usize| judge.of_memory(cycles, &self.rows[memory]).unwrap_or(0.0);
+        match judge.memories {
+            OverMemories::Only(memory) => vec![memory],
+            OverMemories::Sum => all.collect(),
             // Of equals the first.
-            Judge::Worst => all.rev().max_by_key(|memory| self.cycles(*memory)).into_iter().collect(),
+            OverMemories::Worst => {
+                all.rev().max_by(|a, b| cycles(*a).total_cmp(&cycles(*b))).into_iter().collect()
+            }
         }
     }
 
@@ -95,7 +99,7 @@ impl<'t> Table<'t> {
             machine.ruled_out = sweep
                 .requirements
                 .iter()
-                .position(|requirement| requirement.rules_out(sweep.judge, &machine.rows));
+                .position(|requirement| requirement.rules_out(&sweep.judge, &machine.rows));
             machine.values = values(sweep, &machine.rows).filter(|_| machine.ruled_out.is_none());
         }
         let known: Vec<usize> = (0..machines.len()).filter(|i| machines[*i].values.is_some()).collect();
@@ -181,11 +185,11 @@ impl<'t> Table<'t> {
 
 /// The value of each objective, if the machine was drawn on every input with every memory that counts.
 fn values(sweep: &Sweep, rows: &[Vec<&Value>]) -> Option<Vec<f64>> {
-    let counts = |memory: usize| !matches!(sweep.judge, Judge::Only(only) if only != memory);
-    let drawn = rows.iter().enumerate().filter(|(memory, _)| counts(*memory)).all(|(_, rows)| {
+    let counted = rows.iter().enumerate().filter(|(memory, _)| sweep.judge.memories.count(*memory));
+    let mut drawn = counted.map(|(_, rows)| {
         rows.len() == sweep.inputs.len() && rows.iter().all(|row| Status::of(row) == Some(Status::Ok))
     });
-    if !drawn {
+    if !drawn.all(|drawn| drawn) {
         return None;
     }
     sweep.objectives.iter().map(|objective| sweep.judge.value(objective, rows)).collect()

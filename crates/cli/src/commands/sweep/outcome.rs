@@ -92,6 +92,10 @@ impl<'o> Outcome<'o> {
         if definition.judge != Judge::WORST {
             flag("judge", std::slice::from_ref(&definition.judge));
         }
+        if definition.judge_inputs != Judge::SUM {
+            flag("judge-inputs", std::slice::from_ref(&definition.judge_inputs));
+        }
+        flag("weight", &definition.weights);
         if let Some(Sample { points, seed }) = definition.sample {
             flag("sample", &[points.to_string()]);
             flag("seed", &[seed.to_string()]);
@@ -164,6 +168,8 @@ impl<'o> Outcome<'o> {
             "extent": self.extent(),
             "ruled_out": self.table.ruled_out().into_iter().map(|(text, machines)| json!({ "required": text, "machines": machines })).collect::<Vec<_>>(),
             "judge": self.table.sweep.definition.judge,
+            "judge_inputs": self.table.sweep.definition.judge_inputs,
+            "weights": self.table.sweep.definition.weights,
             "best": bests,
             "front": front,
         });
