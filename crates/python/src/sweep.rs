@@ -108,8 +108,8 @@ fn column<'py>(py: Python<'py>, values: &[Value]) -> PyResult<Bound<'py, PyAny>>
 /// Draws inputs on many machines.
 #[pyfunction]
 #[pyo3(signature = (
-    inputs, vary, machine = None, *, shading = None, stalls = Vec::new(), judge = Judge::WORST, sample = None, seed = 1,
-    bound = None, objectives = Vec::new(), store = None
+    inputs, vary, machine = None, *, shading = None, stalls = Vec::new(), judge = Judge::WORST, judge_inputs = Judge::SUM,
+    weights = None, sample = None, seed = 1, bound = None, objectives = Vec::new(), store = None
 ))]
 #[allow(clippy::too_many_arguments)] // the arguments of a call in Python, by name
 pub fn sweep(
@@ -120,6 +120,8 @@ pub fn sweep(
     shading: Option<String>,
     stalls: Vec<String>,
     judge: &str,
+    judge_inputs: &str,
+    weights: Option<BTreeMap<String, f64>>,
     sample: Option<u32>,
     seed: u64,
     bound: Option<f64>,
@@ -133,6 +135,8 @@ pub fn sweep(
         vary: vary.iter().map(|(key, values)| varied(&key, &values)).collect::<PyResult<_>>()?,
         stalls,
         judge: judge.to_owned(),
+        judge_inputs: judge_inputs.to_owned(),
+        weights: weights.into_iter().flatten().map(|(input, weight)| format!("{input}={weight}")).collect(),
         sample: sample.map(|points| Sample { points, seed }),
         bound,
         objectives,

@@ -64,6 +64,18 @@ def test_values_of_any_kind_are_varied(tmp_path):
     assert {row["keys"]["memory.hazard"] for row in found.rows} == {"forward", "drain"}
 
 
+def test_inputs_have_weights(tmp_path):
+    path = str(file_of(tmp_path, triangles(20)))
+    weights = {path: 100.0}
+    sums = {}
+    found = edgewalk.sweep(["sphere", path], VARY, weights=weights, objectives=["cycles"])
+    for row in found.rows:
+        cycles = row["report"]["cycles"]["total"] * weights.get(row["input"], 1.0)
+        keys = tuple(row["keys"].items())
+        sums[keys] = sums.get(keys, 0.0) + cycles
+    assert len(sums) == 9 and sums[tuple(found.best["cycles"]["keys"].items())] == min(sums.values())
+
+
 WRONG = [
     (lambda: edgewalk.sweep("sphere", {"interpolator.adder": [1]}), "^vary interpolator.adder.*interpolator.adders"),
     (lambda: edgewalk.sweep("sphere", {"interpolator.adders": [0]}), "^vary interpolator.adders.*0"),
@@ -71,6 +83,8 @@ WRONG = [
     (lambda: edgewalk.sweep([], VARY), "no input"),
     (lambda: edgewalk.sweep(3, VARY), "inputs: .*; permitted: names of scenes, and paths of files"),
     (lambda: edgewalk.sweep("sphere", VARY, stalls=["often"]), "^stalls often"),
+    (lambda: edgewalk.sweep("sphere", VARY, weights={"spher": 2.0}), "^weight spher=2: .*sphere"),
+    (lambda: edgewalk.sweep("sphere", VARY, judge_inputs="wost"), "^judge-inputs wost"),
     (lambda: edgewalk.sweep("sphere", VARY, bound=0.1), "^bound 0.1: permitted: above 0.5 LSB"),
     (lambda: edgewalk.sweep("sphere", VARY, objectives=["cycle"]), "cycle.*cycles"),
     (lambda: edgewalk.sweep("sphere", VARY, sample=0), "^sample 0"),

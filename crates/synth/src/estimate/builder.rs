@@ -91,7 +91,7 @@ pub(super) const UNKNOWN: Lit = Lit::MAX;
 
 impl<'w> Builder<'w> {
     pub fn new(words: &'w Words, known: &'w Known, guarded: &'w [bool]) -> Builder<'w> {
-        let mut graph = Graph::new();
+        let mut graph = Graph::new(2 * words.bits);
         let rst = graph.node(Node::Leaf);
         Builder {
             words,

@@ -59,33 +59,21 @@ impl Cut {
         if sign.count_ones() > INPUTS as u32 {
             return None;
         }
-        let (a, b) = (self.leaves(), other.leaves());
+        let (a, b) = (&self.leaves, &other.leaves);
+        let (a_len, b_len) = (self.len as usize, other.len as usize);
         let (mut i, mut j, mut len) = (0, 0, 0);
         let mut leaves = [0; INPUTS];
-        while i < a.len() || j < b.len() {
+        while i < a_len && j < b_len {
             if len == INPUTS {
                 return None;
             }
-            let next = match (a.get(i), b.get(j)) {
-                (Some(x), Some(y)) if x == y => {
-                    (i, j) = (i + 1, j + 1);
-                    *x
-                }
-                (Some(x), Some(y)) if x < y => {
-                    i += 1;
-                    *x
-                }
-                (Some(x), None) => {
-                    i += 1;
-                    *x
-                }
-                (_, Some(y)) => {
-                    j += 1;
-                    *y
-                }
-                (None, None) => break,
-            };
-            leaves[len] = next;
+            let (x, y) = (a[i], b[j]);
+            leaves[len] = x.min(y);
+            (i, j, len) = (i + usize::from(x <= y), j + usize::from(y <= x), len + 1);
+        }
+        // One of the two has no more.
+        for leaf in a[i..a_len].iter().chain(&b[j..b_len]) {
+            *leaves.get_mut(len)? = *leaf;
             len += 1;
         }
         Some(Cut { leaves, len: len as u8, depth: 0, flow: 0.0, sign })

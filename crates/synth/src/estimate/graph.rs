@@ -74,13 +74,14 @@ pub(super) struct Graph {
 }
 
 impl Graph {
-    pub fn new() -> Graph {
+    /// With room for so many nodes.
+    pub fn new(room: usize) -> Graph {
         Graph {
             nodes: vec![Node::Leaf],
             units: vec![0],
             carries: Vec::new(),
             unit: 0,
-            same: QuickMap::default(),
+            same: QuickMap::with_capacity_and_hasher(room, Default::default()),
             choices: QuickMap::default(),
         }
     }

@@ -396,13 +396,14 @@ impl<'n> Reader<'n, '_> {
             key.extend_from_slice(&self.words.operands[place.clone()]);
             key.push(Bit::MAX);
         }
-        if let Some(first) = self.same.get(&(op, key.clone())) {
+        let key = (op, key);
+        if let Some(first) = self.same.get(&key) {
             let bits: Vec<Bit> = (*first..*first + width as Bit).collect();
             return self.keep(&bits);
         }
         let place = self.fresh(width);
         let first = self.words.operands[place.start];
-        self.same.insert((op, key), first);
+        self.same.insert(key, first);
         let Scope { unit, backwards, .. } = self.scopes[scope];
         self.words.cells.push(Cell { op, operands, first, width, unit, backwards });
         place
