@@ -213,8 +213,8 @@ pub fn map(shadow: &Shadow, machine: &Plan) -> Result<Map> {
     let mut map = vec![0; 1 << (2 * side)];
     for (place, (depth, [left, ..])) in drawn.z.iter().zip(&drawn.rgb).enumerate() {
         let transmits = machine.shadow.transmits();
-        let word = if transmits { depth << machine.color.bits | left } else { *depth };
-        map[(place / size) << side | place % size] = word as u32; // at most 32 bits
+        let word = if transmits { (depth << machine.color.bits) | left } else { *depth };
+        map[((place / size) << side) | (place % size)] = word as u32; // at most 32 bits
     }
     Ok(Map { words: map, counters: drawn.counters, own: None })
 }

@@ -88,7 +88,7 @@ pub fn tick_rtl(
 fn tagged_netlist(plan: &Plan) -> Result<NetlistDevice, DrawError> {
     let tagged = plan.tagged();
     let (netlist, interface) = (netlist(&tagged, Unit::MACHINE)?, Interface::new(&tagged, Unit::MACHINE));
-    Ok(NetlistDevice::new(&*netlist, &interface)?)
+    Ok(NetlistDevice::new(&netlist, &interface)?)
 }
 
 /// As [`render_rtl_passes`], by a device that has just been reset and has the ports of the machine with tags of 32 bits,

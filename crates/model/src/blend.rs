@@ -281,7 +281,7 @@ impl<const C: usize> Blend<C> {
             (front + back).min((1 << self.bits) - 1)
         } else if side.need {
             let (one, half) = (1 << self.kt_bits, 1 << (self.kt_bits - 1));
-            back + ((front - back) * (one - i64::from(side.k)) + half >> self.kt_bits)
+            back + (((front - back) * (one - i64::from(side.k)) + half) >> self.kt_bits)
         } else {
             front
         };

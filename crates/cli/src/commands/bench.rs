@@ -13,9 +13,9 @@ use edgewalk_model::Waits;
 /// Time every engine on a triangle file, scene or mesh.
 ///
 /// One frame clears and draws all triangles; reading the file does not count. Slow engines draw the first triangles
-/// only, as the output says. Every engine must take the machine's cycles and make its writes, or the exit code is
-/// 1. Rates are of processor time, the median frame. Verilator takes part where it is installed. It gets the
-/// emitted Verilog of the same machine and -O3 --x-assign fast.
+/// only, as the output says. Every engine must take the machine's cycles and make its writes, or the exit code is 1.
+/// Rates are of processor time, the median frame. Verilator takes part where it is installed. It gets the emitted
+/// Verilog of the same machine and -O3 --x-assign fast.
 #[derive(clap::Args)]
 #[command(after_help = "Examples:
   edgewalk bench triangles.tri

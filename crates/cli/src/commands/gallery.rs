@@ -105,7 +105,7 @@ fn page(exhibits: &[Exhibit]) -> String {
             page,
             "\n## {}\n\n{}\n\n| measured | |\n|---|---|\n",
             exhibit.title,
-            wrapped(&exhibit.cause)
+            wrapped(exhibit.cause)
         );
         for (quantity, value) in &exhibit.figures {
             _ = writeln!(page, "| {quantity} | {value} |");

@@ -33,7 +33,7 @@ impl Edge {
 
     /// An edge that begins so many lines further down.
     #[inline(always)]
-    pub(super) fn from_line(self, lines: u32) -> Self {
+    pub(super) fn begun_later(self, lines: u32) -> Self {
         Edge { at: self.at - f64::from(lines) * self.step, ..self }
     }
 
@@ -85,7 +85,7 @@ mod tests {
             let edge = Edge::new(&walk);
             let lines = lines_within(&walk, 8193);
             let knee = 1 + below(&mut random, lines);
-            let late = [Edge { at: f64::NAN, step: f64::NAN }, edge.from_line(knee as u32)];
+            let late = [Edge { at: f64::NAN, step: f64::NAN }, edge.begun_later(knee as u32)];
             for first in 0..lines {
                 let all: [i32; LINES] = from_fn(|i| first as i32 + i as i32);
                 assert_eq!(edge.columns(&all)[0], walk.c, "line {first} of {walk:?}");

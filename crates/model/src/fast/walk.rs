@@ -180,7 +180,7 @@ impl Walker {
             (prim.lines[0] + prim.lines[1], prim.lines[0])
         };
         let [upper, lower] = prim.minor.each_ref().map(Edge::new);
-        let minor = [upper, lower.from_line(knee)];
+        let minor = [upper, lower.begun_later(knee)];
         let more: Words = from_fn(|i| delta[1][i].wrapping_sub(delta[0][i]));
         // In textbook fill the left end is `Trunc`, one less than C, and the knee line is drawn again.
         let inward = i32::from(self.textbook);

@@ -145,14 +145,12 @@ impl Graph {
         match two_operands(terms, width) {
             Some((a, b, signed, subtract, carry)) => {
                 let key = (a.clone(), b.clone());
-                if subtract && carry == TRUE {
-                    if let Some(chain) = differences
-                        .0
-                        .get(&key)
-                        .filter(|chain| chain.sum.len() == width && chain.signed == signed)
-                    {
-                        return chain.sum.clone();
-                    }
+                let same = |chain: &&Chain| chain.sum.len() == width && chain.signed == signed;
+                if subtract
+                    && carry == TRUE
+                    && let Some(chain) = differences.0.get(&key).filter(same)
+                {
+                    return chain.sum.clone();
                 }
                 let (sum, carries) = self.alu(&a, &b, signed, subtract, carry, width);
                 if subtract && carry == TRUE {

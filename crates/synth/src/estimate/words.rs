@@ -244,7 +244,8 @@ impl<'n> Reader<'n, '_> {
             let width = netlist.width(driver) as usize;
             if (place..place + width).any(|bit| self.view.readers(bit) > 0) {
                 let bits = self.read(0, driver);
-                for (at, bit) in self.words.operands[bits].to_vec().into_iter().enumerate() {
+                for (at, bit) in bits.enumerate() {
+                    let bit = self.words.operands[bit];
                     for _ in 0..self.view.readers(place + at) {
                         self.words.outputs.push(bit);
                         self.words.wanted.push((place + at) as u32);

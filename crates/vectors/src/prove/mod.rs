@@ -71,8 +71,7 @@ pub fn prove(
         let written = netlist.memories.iter().filter(|memory| !memory.writes.is_empty());
         written.map(|memory| memory.contents.clone()).collect::<Vec<_>>()
     };
-    let (own, cut) =
-        (starts(&one) == starts(&other), [&one, &other].map(|netlist| without_memories(netlist)));
+    let (own, cut) = (starts(&one) == starts(&other), [&one, &other].map(without_memories));
     let [now, then] = [&cut[0], &cut[1]].map(one_clock);
     if own && search(&Ports::of_module(&now), &now, &then, LIMITS[1])? == Proof::Equivalent {
         return Ok(Proof::Equivalent);

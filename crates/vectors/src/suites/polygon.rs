@@ -3,6 +3,7 @@
 use super::pen::{Pen, case};
 use super::{Case, Triangle};
 use edgewalk_machine::{Plan, Role, Sides, Window};
+use std::slice::from_ref;
 
 type Point = (f64, f64);
 
@@ -71,7 +72,7 @@ pub(super) fn corners(machine: &Plan) -> Vec<Case> {
     let low = pen.shaded([(1.0, 6.0), (4.0, 6.5), (2.0, 9.0)], [0.3; 3]);
     let flat = [triangle[0], triangle[1], triangle[1]];
     vec![
-        case("vertices_on_centres", of(&[diamond.clone()])),
+        case("vertices_on_centres", of(from_ref(&diamond))),
         case("edges_along_lines", of(&[square(1.0, 1.5, 4.0)])),
         case("contour_behind_contour", of(&[square(1.0, 1.0, 3.0), square(2.0, 4.0, 3.0)])),
         case("lines_without_edges", of(&[square(1.0, 1.0, 2.0), square(2.0, 6.0, 2.0)])),
@@ -87,8 +88,8 @@ pub(super) fn corners(machine: &Plan) -> Vec<Case> {
             of(&[contour])
         }),
         case("a_small_one_behind_it", of(&[square(2.0, 2.0, 3.0)])),
-        case("window_above", pen.polygon(&[diamond.clone()], window(0, 2))),
-        case("window_inside", pen.polygon(&[diamond.clone()], window(2, 5))),
+        case("window_above", pen.polygon(from_ref(&diamond), window(0, 2))),
+        case("window_inside", pen.polygon(from_ref(&diamond), window(2, 5))),
         case("window_below", pen.polygon(&[diamond], window(6, 9))),
         case("end_alone", [as_role(triangle, Role::Plane(Sides::default()))]),
         case(

@@ -136,9 +136,9 @@ impl<'a, const C: usize> Run<'a, C> {
 
     fn step(&mut self, word: &Word, digits: &[u8]) {
         let Some(Step { base, row, operand, sign, only }) = word.step else { return };
-        for lane in 0..self.lanes.len() {
+        for (lane, digit) in (0..self.lanes.len()).zip(digits) {
             let formats = self.formats(lane);
-            let value = self.read(row, lane, digits[lane]);
+            let value = self.read(row, lane, *digit);
             let a = self.lanes[lane].now.a;
             let holds = self.counts_channels
                 && word.control == Control::Again

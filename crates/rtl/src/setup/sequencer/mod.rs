@@ -117,9 +117,7 @@ pub(super) fn setup(plan: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
     }
 
     ports.take_ready(control.idle);
-    ports.give(control.prim_there, |name| match name {
-        _ => prim[name].q(),
-    });
+    ports.give(control.prim_there, |name| prim[name].q());
     m.finish()
 }
 
