@@ -7,7 +7,7 @@ use serde::Serialize;
 /// new.
 fn version(what: &str) -> [u32; 2] {
     match what {
-        "report" => [1, 1],
+        "report" | "sweep" | "energy" | "features" => [1, 1],
         _ => [1, 0],
     }
 }

@@ -282,6 +282,35 @@ fn energy_takes_another_library() {
     assert!((quick - osu / 1000.0).abs() <= 0.5e-4, "{quick} and {osu} ns");
 }
 
+/// The rows of docs/energy.md for libraries of the system.
+#[test]
+#[ignore = "needs qflow-tech-osu035 and qflow-tech-osu050: two minutes"]
+fn libraries_of_the_page_give_its_figures() {
+    let folder = tempfile::tempdir().unwrap();
+    let page = std::fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs/energy.md")).unwrap();
+    let rows = page.lines().skip_while(|line| !line.starts_with("| `--library` |")).skip(2);
+    let mut checked = 0;
+    for row in rows.take_while(|line| line.starts_with('|')) {
+        let cells: Vec<&str> = row.split('|').map(str::trim).collect();
+        let file = cells[1].trim_matches('`');
+        let library = if file.starts_with('/') { vec!["--library", file] } else { vec![] };
+        let words = [&["energy", "sphere", "--triangles", "100", "--json", "--cache", "cache"][..], &library];
+        let output = edgewalk(folder.path(), &words.concat()).output().unwrap();
+        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+        let of: Value = serde_json::from_slice(&output.stdout).unwrap();
+        let figures = [
+            format!("{:.1}", number(&of["kge"])),
+            format!("{:.3}", number(&of["area_um2"]) / 1e6),
+            format!("{:.3}", number(&of["ns"])),
+            format!("{:.1}", number(&of["energy"]["cycle_pj"])),
+        ];
+        assert_eq!(figures, cells[2..6], "{row}");
+        checked += figures.len();
+    }
+    println!("{checked} figures");
+    assert_eq!(checked, 12);
+}
+
 /// Six pairs of machines whose order was stated before the first run. Three of them have it, and docs/energy.md says why the
 /// others have not. The test holds the order that was measured.
 #[test]

@@ -375,6 +375,28 @@ fn fits() -> String {
     table(header, body.collect::<Vec<_>>())
 }
 
+/// What the page says of the energy of shading is in the kept tables.
+#[test]
+fn energies_of_shading_are_those_of_the_tables() {
+    let page = std::fs::read_to_string(docs().join("study.md")).unwrap();
+    let page = page.split_whitespace().collect::<Vec<_>>().join(" ");
+    let frame = |table: &str, place: usize| machines(table)[place]["inputs"][0]["energy"].clone();
+    let [gouraud, fast, phong] = [frame("plain", 0), frame("shaded", 0), frame("shaded", 1)];
+    let all = |of: &Value| of["energy"]["frame_pj"].as_f64().unwrap();
+    let share = |of: &Value, unit: &str| 100.0 * of["energy"]["units"][unit].as_f64().unwrap() / all(of);
+    let shade = fast["units"].as_array().unwrap().iter().find(|unit| unit["unit"] == "shade").unwrap();
+    let flip_flops = shade["flip_flops"].as_u64().unwrap();
+    for said in [
+        format!("fast Phong takes {:.1} times the energy of Gouraud", all(&fast) / all(&gouraud)),
+        format!("and Phong {:.1} times.", all(&phong) / all(&gouraud)),
+        format!("SHADE takes {:.0} and {:.0} % of it", share(&fast, "shade"), share(&phong, "shade")),
+        format!("NORMAL {:.0} %.", share(&phong, "normal")),
+        format!("its {},{:03} flip-flops", flip_flops / 1000, flip_flops % 1000),
+    ] {
+        assert!(page.contains(&said), "docs/study.md does not say: {said}");
+    }
+}
+
 /// The kept tables of features are those of today's program, but for what takes tools; sphere alone is drawn again.
 #[test]
 fn features_are_those_of_the_program() {

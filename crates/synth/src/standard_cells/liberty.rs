@@ -1,7 +1,6 @@
 //! The Liberty format: groups `KIND (NAME) { ... }` with values `KEY : VALUE ;`, as text with line numbers.
 //!
-//! Not kept: lists `KEY (A, B);`, of which the tables of delay and power consist. Those who need them read the file
-//! themselves.
+//! Not kept: lists `KEY (A, B);`, as the tables of delay and power are. Yosys and OpenSTA read these from the file.
 
 /// A group, e.g. `pin (A) { ... }`.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -41,7 +40,7 @@ impl Group {
 pub(super) struct Wrong {
     /// Line, counted from 1.
     pub line: usize,
-    /// What was found, and what is permitted.
+    /// The fault, then the remedy.
     pub what: String,
 }
 

@@ -53,7 +53,7 @@ pub enum LibraryError {
         file: String,
         /// Line, counted from 1.
         line: usize,
-        /// What was found, and what is permitted.
+        /// The fault, then the remedy.
         what: String,
     },
     /// The file as a whole is wrong, or lacks a cell that every design takes.
@@ -61,7 +61,7 @@ pub enum LibraryError {
     Whole {
         /// The file as the user named it.
         file: String,
-        /// What was found, and what is permitted.
+        /// The fault, then the remedy.
         what: String,
     },
 }
@@ -101,7 +101,13 @@ impl Library {
             let line = 1 + before.iter().filter(|byte| **byte == b'\n').count();
             LibraryError::Line { file: file(), line, what: "is no text in UTF-8".to_owned() }
         })?;
-        let at = |Wrong { line, what }| LibraryError::Line { file: file(), line, what };
+        Library::of(text, &file())
+    }
+
+    /// Of the text of a file.
+    fn of(text: String, file: &str) -> Result<Library, LibraryError> {
+        let whole = |what: &str| LibraryError::Whole { file: file.to_owned(), what: what.to_owned() };
+        let at = |Wrong { line, what }| LibraryError::Line { file: file.to_owned(), line, what };
         let library = parse(&text).map_err(at)?;
         let areas = areas(&library).map_err(at)?;
         let (mut registers, mut gates, mut inverters) = (BTreeMap::new(), Vec::new(), Vec::new());
@@ -230,4 +236,51 @@ fn shape(cell: &Group) -> Option<(usize, u64, f64)> {
     let names: Vec<&str> = inputs.iter().map(|pin| pin.name()).collect();
     let drives = output.value("max_capacitance").and_then(|(most, _)| most.parse().ok()).unwrap_or(0.0);
     Some((names.len(), table(output.value("function")?.0, &names)?, drives))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Library;
+
+    /// Cells of the same function, the wanted one neither first nor last.
+    #[test]
+    fn the_smallest_cells_are_taken() {
+        let inverter = |name: &str, area: &str, drives: &str| {
+            format!(
+                "cell ({name}) {{ area : {area}; pin (A) {{ direction : input; }}
+                pin (Y) {{ direction : output; function : \"A'\"; max_capacitance : {drives}; }} }}"
+            )
+        };
+        let two = |name: &str, area: &str, function: &str| {
+            format!(
+                "cell ({name}) {{ area : {area}; pin (A) {{ direction : input; }} pin (B) {{ direction : input; }}
+                pin (Y) {{ direction : output; function : \"{function}\"; }} }}"
+            )
+        };
+        let flip_flop = |name: &str, pins: &str| {
+            format!(
+                "cell ({name}) {{ area : 9; ff (I, N) {{ next_state : \"D\"; clocked_on : \"C\"; }} {pins} }}"
+            )
+        };
+        let (q, qn) = ("pin (OUT) { function : \"I\"; }", "pin (INV) { function : \"N\"; }");
+        let cells = [
+            inverter("weak", "2", "0.5"),
+            inverter("strong", "2", "0.9"),
+            inverter("large", "3", "5"),
+            two("nor", "1", "(A+B)'"),
+            two("big", "8", "(A B)'"),
+            two("nand", "4.5", "!A + !B"),
+            two("and", "4", "A B"),
+            flip_flop("both", &format!("{qn} {q}")),
+            flip_flop("inverted", qn),
+        ];
+        let text = format!("library (l) {{ {} }}", cells.join("\n"));
+        let library = Library::of(text, "l.lib").expect("a library");
+        assert_eq!((library.inverter.as_str(), library.gate(), library.gate_area()), ("strong", "nand", 4.5));
+        assert_eq!((library.register("both"), library.register("inverted")), (Some("OUT"), Some("INV")));
+        assert_eq!(
+            (library.register("nand"), library.area("large"), library.area("none")),
+            (None, Some(3.0), None)
+        );
+    }
 }
