@@ -112,12 +112,12 @@ impl<'m> Mover<'m> {
             let along = m
                 .reg(&format!("{channel}_along"), down.width())
                 .doc("increment, doubled as often as it was asked for");
-            along.when(way.doubles, along.q().shl(1)).when(takes, increment);
+            along.when(way.doubles, along.q().shl(1)).when(takes, increment).when(!walking, of_prim("start"));
             let along = along.q() ^ way.left.sext(down.width());
             let added = way.down.mux(down, along).named(&format!("{channel}_added"));
             let value = line[channel];
             let moved = plus(&format!("{channel}_moved"), value.q(), added, !way.down & way.left);
-            value.when(way.adds, moved).when(!walking, of_prim("start"));
+            value.when(way.adds, moved).when(!walking, 0);
         }
         let (has_span, line_valid) = (has_span.q(), arrives.q());
         let fresh = if between.is_some() { m.lit(1, 1) } else { first };
@@ -162,14 +162,15 @@ impl<'m> Way<'m> {
         let lines = m.reg("lines_down", pair.line.width()).doc("lines left to go down");
         let columns = m.reg("columns_along", bits).doc("columns left to go, in doubles of what is added");
         let down = m.reg("down", 1).doc("lines are left").reset(0);
-        let along = m.reg("along", 1).doc("columns are left").reset(0);
-        let to_left = m.reg("to_left", 1).doc("they lie to the left").when(takes, left).q();
+        let along = m.reg("along", 1).doc("columns are left");
+        let to_left = m.reg("to_left", 1).doc("they lie to the left").when(takes, left).when(!walking, 0).q();
         let doubles = (!down.q() & along.q()).named("doubles");
         let half = columns.q().shr(1);
         lines.when(down.q(), lines.q() - 1).when(takes, below);
         down.when(down.q(), lines.q().ne(1)).when(takes, pair.line.ne(line.q()));
-        columns.when(doubles, half).when(takes, far);
-        along.when(doubles, half.any()).when(takes, away);
+        // While no polygon is walked a column is to go: the start.
+        columns.when(doubles, half).when(takes, far).when(!walking, 1);
+        along.when(doubles, half.any()).when(takes, away).when(!walking, 1);
         let adds = (down.q() | (along.q() & columns.q().bit(0))).named("adds");
         Way { down: down.q(), along: along.q(), doubles, adds, left: to_left }
     }
