@@ -23,11 +23,11 @@ impl Clock {
         self.enter_setup();
         self.setup[0] += u64::from(setup.phase1);
         self.setup[1] += u64::from(setup.phase2);
-        let mut prim = self.take + u64::from(setup.all()) + 1;
+        // An edge is in the edge place a cycle behind the one in which it is chosen. Where no side is left that is known as late.
+        let mut prim = self.take + u64::from(setup.all()) + 2;
         for room in loads.room.iter().take(loads.sides.into()) {
             prim = self.walking.free_from(prim) + 1 + u64::from(*room);
         }
-        prim += 1; // that no side is left is known a cycle later
         if ends {
             prim = prim.max(self.walking.rests).max(self.edge_free);
         }

@@ -16,13 +16,15 @@ pub(super) struct Load {
     /// N.
     places: u32,
     line_mask: u32,
-    /// ne: edges of the bank.
+    /// ne: edges of the bank, with one on its way through the order list.
     edges: u32,
     /// An edge had no place.
     over: bool,
-    /// Sides of the prim that are loaded.
+    /// Sides of the prim that are chosen.
     did: [bool; 3],
-    /// No side of the prim was left in the cycle before.
+    /// The edge place: an edge on its way to the table, its record and j.
+    chosen: Option<(Record, u32)>,
+    /// In the cycle before no side of the prim was left, and no edge had to stay in its place.
     through: bool,
     /// Line of the last word of the order list.
     top: u32,
@@ -56,6 +58,7 @@ impl Load {
             edges: 0,
             over: false,
             did: [false; 3],
+            chosen: None,
             through: false,
             top: 0,
             putting: None,
@@ -67,7 +70,8 @@ impl Load {
 
     pub fn reset(&mut self) {
         (self.bank, self.edges, self.over) = (0, 0, false);
-        (self.did, self.through, self.putting) = ([false; 3], false, None);
+        (self.did, self.chosen) = ([false; 3], None);
+        (self.through, self.putting) = (false, None);
         (self.at, self.found) = (0, false);
     }
 
@@ -101,9 +105,19 @@ impl Load {
         edges == self.places
     }
 
-    /// No side of the prim that is offered is left, and no edge is on its way, for a cycle or more.
+    /// All edges of the prim that is offered are in the table, and in the order list.
     pub fn is_through(&self) -> bool {
-        self.through
+        self.through && self.putting.is_none()
+    }
+
+    /// An edge is in the edge place.
+    pub fn has_chosen(&self) -> bool {
+        self.chosen.is_some()
+    }
+
+    /// The edge in the edge place does not leave it; `writes`: PASS writes a record.
+    pub fn stays(&self, writes: bool) -> bool {
+        self.chosen.is_some() && (writes || self.putting.is_some())
     }
 
     /// A side of the prim is left.
@@ -111,7 +125,7 @@ impl Load {
         self.left(prim).is_some()
     }
 
-    /// The first side that counts, has lines and is not loaded.
+    /// The first side that counts, has lines and is not chosen.
     fn left<const C: usize>(&self, prim: &Prim<C>) -> Option<usize> {
         (0..3).find(|side| prim.sides >> side & 1 == 1 && lines(prim, *side) > 0 && !self.did[*side])
     }
@@ -124,50 +138,60 @@ impl Load {
         walks: bool,
         events: &mut Events,
     ) {
+        let stays = self.stays(writes);
         let left = prim.and_then(|prim| Some((prim, self.left(prim)?)));
-        self.through = prim.is_some() && left.is_none() && self.putting.is_none();
-        let found = self.along.is_none() || self.found;
-        if let Some(along) = &self.along
-            && left.is_some()
-            && !found
-        {
+        self.through = prim.is_some() && left.is_none() && !stays;
+        let next = left.filter(|_| !stays && self.colours_found(events) && self.putting.is_none());
+        if let Some(putting) = self.putting {
+            self.put(putting, events);
+        } else if stays {
+            events.poly.load_waits += 1;
+        } else if let Some((record, line)) = self.chosen.take() {
+            self.store(record, line, walks, events);
+        }
+        if let Some((prim, side)) = next {
+            self.did[side] = true;
+            self.found = false;
+            self.chosen = Some(self.edge(prim, side));
+        }
+    }
+
+    /// The colours of the side whose turn it is are found, or there are none; if not they are sought for a cycle.
+    fn colours_found(&mut self, events: &mut Events) -> bool {
+        let Some(along) = &self.along else { return true };
+        let found = self.found;
+        if !found {
+            one_more(&mut events.poly.load_divides);
             self.found = self.at + 1 == along.clocks;
             self.at = if self.found { 0 } else { self.at + 1 };
         }
-        if let Some(putting) = self.putting {
-            return self.put(putting, events);
-        }
-        let Some((prim, side)) = left else { return };
-        if !found {
-            one_more(&mut events.poly.load_divides);
-            return;
-        }
-        if writes {
-            events.poly.load_waits += 1;
-            return;
-        }
-        self.did[side] = true;
-        self.found = false;
+        found
+    }
+
+    /// The record of a side's edge, and j.
+    fn edge<const C: usize>(&self, prim: &Prim<C>, side: usize) -> (Record, u32) {
+        let walk = if side == 0 { prim.major } else { prim.minor[side - 1] };
+        let below = if side == 2 { prim.lines[0] } else { 0 };
+        let colours = self.along.as_ref().map_or_else(Colours::default, |along| along.colours(prim, side));
+        (Record { walk, lines: lines(prim, side), colours }, (prim.line + below) & self.line_mask)
+    }
+
+    /// An edge goes to the table, and to the end of the order list or on its way to a place before that.
+    fn store(&mut self, record: Record, line: u32, walks: bool, events: &mut Events) {
         if self.edges == self.places {
             self.over = true;
             return;
         }
         events.poly.load_overlap += u64::from(walks);
-        let walk = if side == 0 { prim.major } else { prim.minor[side - 1] };
-        let below = if side == 2 { prim.lines[0] } else { 0 };
-        let key = Order { line: (prim.line + below) & self.line_mask, index: self.edges };
+        let (place, key) = (self.edges, Order { line, index: self.edges });
+        self.edges += 1;
         let bank = &mut self.banks[self.bank];
-        bank.edges[self.edges as usize] = Record {
-            walk,
-            lines: lines(prim, side),
-            colours: self.along.as_ref().map_or_else(Colours::default, |along| along.colours(prim, side)),
-        };
-        if self.edges == 0 || key.line >= self.top {
-            bank.order[self.edges as usize] = key;
-            self.top = key.line;
-            self.edges += 1;
+        bank.edges[place as usize] = record;
+        if place == 0 || line >= self.top {
+            bank.order[place as usize] = key;
+            self.top = line;
         } else {
-            self.putting = Some(Putting { place: self.edges, key });
+            self.putting = Some(Putting { place, key });
         }
     }
 
@@ -183,7 +207,6 @@ impl Load {
             }
             None => {
                 order[place as usize] = key;
-                self.edges += 1;
                 self.putting = None;
             }
         }

@@ -45,6 +45,8 @@ impl<const C: usize> Poly<C> {
         let (bank, loaded, putting) = self.load.loading();
         view.number("ne", "edges of the polygon that is loaded", edges, loaded);
         view.wire(|| "edges".to_owned());
+        view.flag("chosen", "an edge is on its way into the table", self.load.has_chosen());
+        view.wire(|| "edge_waits".to_owned());
         view.flag("over", "it has more edges than the table", self.load.over());
         view.wire(|| "over".to_owned());
         let puts = view.flag("putting", "an edge goes to its place in the order list", putting.is_some());
@@ -69,8 +71,9 @@ impl<const C: usize> Poly<C> {
         let first = (loaded as usize).saturating_sub(ROWS);
         for row in 0..ROWS {
             let place = first + row;
-            let order =
-                bank.order.get(place).copied().filter(|_| place < loaded as usize).unwrap_or_default();
+            let free = putting.is_some_and(|putting| putting.place as usize == place);
+            let order = bank.order.get(place).copied().filter(|_| place < loaded as usize && !free);
+            let order = order.unwrap_or_default();
             view.row(&format!("loaded {row}"));
             view.cell("place in the list", || Shape::whole(edges), place as u64);
             view.cell("first line of the edge", || Shape::whole(w.line), order.line.into());
@@ -217,12 +220,14 @@ impl<const C: usize> Poly<C> {
         let (_, loaded, putting) = self.load.loading();
         let through = prim.is_some() && self.load.is_through();
         let left = prim.is_some_and(|prim| self.load.is_left(prim));
-        let seeks = left && self.load.sought().is_some_and(|(_, found)| !found);
+        let stays = self.load.stays(self.pass.writes());
+        let seeks = left && !stays && self.load.sought().is_some_and(|(_, found)| !found);
         if self.load.sought().is_some() {
             view.says(seeks, "LOAD finds the colours of an edge: clock {at}.");
         }
-        let loads = left && !seeks && putting.is_none() && !self.pass.writes();
-        view.says(loads, "LOAD takes an edge into the table.");
+        let takes = left && !seeks && !stays && putting.is_none();
+        view.says(takes, "LOAD chooses an edge of the prim.");
+        view.says(self.load.has_chosen() && !stays, "LOAD takes an edge into the table.");
         view.says(
             putting.is_some(),
             "LOAD puts an edge into the order list, before those that begin further down.",

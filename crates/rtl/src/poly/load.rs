@@ -68,7 +68,7 @@ impl<'m> Load<'m> {
         let edges = m.reg("edges", bits + 1).doc("in that half").reset(0);
         let over = m.reg("over", 1).doc("there are more").reset(0);
         let putting = m.reg("putting", 1).doc("an edge goes before others of the order list").reset(0);
-        let did = m.reg("did", 3).doc("sides of the prim that are loaded").reset(0);
+        let did = m.reg("did", 3).doc("sides of the prim that are chosen").reset(0);
 
         let sides = sides(prim);
         let is_left = |number: u32| {
@@ -77,27 +77,32 @@ impl<'m> Load<'m> {
         };
         let [major, minor1, minor2] = [0, 1, 2].map(is_left);
         let any_left = (major | minor1 | minor2).named("any_left");
-        let finds = Finds::new(m, !tables.colours.is_empty(), prim_valid & any_left);
+        let waits = m.reg("edge_waits", 1).doc("an edge is chosen, and not in the table").reset(0);
+        let keeps = (waits.q() & (pass_writes | putting.q())).named("edge_stays");
+        let finds = Finds::new(m, !tables.colours.is_empty(), prim_valid & any_left & !keeps);
         let turn = m.cat(&[minor2 & !major & !minor1, minor1 & !major, major]).named("turn");
-        let takes = prim_valid & !putting.q() & any_left & !pass_writes;
+        let takes = prim_valid & any_left & !putting.q() & !(waits.q() & pass_writes);
         let takes = finds.as_ref().map_or(takes, |finds| takes & finds.found.q());
-        let takes = takes.named_doc("takes", "a side is loaded");
+        let takes = takes.named_doc("takes", "a side is chosen");
+        waits.set(takes | keeps);
         // Where the major edge counts and has no lines no side has any: which one is chosen does not matter.
         let of_major = (prim["sides"].bit(0) & !did.q().bit(0)).named("of_major");
         let chosen = |of: &dyn Fn(Side<'m>) -> Signal<'m>| {
             of_major.mux(of(sides[0]), minor1.mux(of(sides[1]), of(sides[2])))
         };
-        let first = chosen(&|side| side.first).named("first_line");
-        let lines = chosen(&|side| side.lines).named("lines");
+        let kept = |name: &str, value: Signal<'m>| m.reg(name, value.width()).when(!keeps, value).q();
+        let first = kept("first_line", chosen(&|side| side.first));
+        let lines = kept("lines", chosen(&|side| side.lines));
         let parts = parts_of_edge(&prim.parts());
         let part = |name: &str| chosen(&|side| prim[format!("{}_{name}", side.edge).as_str()]);
+        let edge = Token::new(parts.clone(), |name| kept(&format!("loaded_{name}"), part(name)));
         let edge = Token::new(parts, |name| match name {
             // A step with a carry adds M - f.
             "m" => {
-                let modulus = part("m");
-                (modulus - part("f").zext(modulus.width())).named_doc("loaded_back", "M - f")
+                let modulus = edge["m"];
+                (modulus - edge["f"].zext(modulus.width())).named_doc("loaded_back", "M - f")
             }
-            _ => part(name).named(&format!("loaded_{name}")),
+            _ => edge[name],
         });
         let colours = finds.map_or_else(Vec::new, |finds| {
             finds.found.when(takes, 0);
@@ -114,20 +119,21 @@ impl<'m> Load<'m> {
         });
 
         let closes = prim["ends"];
-        let through = m.reg("through", 1).doc("no side of the prim was left in the clock before").reset(0);
-        let prim_ready = through.q() & !(closes & (walking | fresh_queued));
+        let through = m.reg("through", 1).doc("no side of the prim is left, and none waits").reset(0);
+        let prim_ready = through.q() & !putting.q() & !(closes & (walking | fresh_queued));
         let prim_ready = prim_ready.named("prim_ready");
         let fires = (prim_valid & prim_ready).named("fires");
         let closes = (fires & closes).named_doc("closes", "the polygon has all its edges");
         let begins = (closes & edges.q().any() & !over.q() & !prim["void"]).named("begins");
-        through.set(prim_valid & !any_left & !putting.q() & !fires);
+        through.set(prim_valid & !any_left & !keeps & !fires);
         let refused = (closes & over.q()).named("refused");
         bank.when(closes, !bank.q());
         did.when(takes, did.q() | turn).when(fires, 0);
 
         let full = edges.q().msb();
-        over.when(takes & full, 1).when(closes, 0);
-        let stores = (takes & !full).named("stores");
+        let loads = (waits.q() & !keeps).named("loads");
+        over.when(loads & full, 1).when(closes, 0);
+        let stores = (loads & !full).named("stores");
         let place = tables.at(bank.q(), edges.q()).named("load_place");
         tables.steps.write(stores, place, tables.joined_steps(&edge));
         for (table, (_, step)) in tables.colours.iter().zip(&colours) {
@@ -136,11 +142,9 @@ impl<'m> Load<'m> {
         let rest = first_rest(edge["dist"], edge["f"]).named_doc("first_rest", "R - f, signed");
 
         let order = Order { m, tables, prim_valid, bank: bank.q(), edges: edges.q(), putting: putting.q() };
-        let firsts =
-            First { own: first, of_top: sides[0].first, of_knee: sides[2].first, is_top: of_major | minor1 };
-        let Ordered { appends, inserts, ended } = order.sort(stores, &firsts);
+        let Ordered { inserts, ended } = order.sort(stores, first);
         putting.when(ended, 0).when(inserts, 1);
-        edges.when(appends | ended, edges.q() + 1).when(closes, 0);
+        edges.when(stores, edges.q() + 1).when(closes, 0);
 
         let (bank, edges) = (bank.q(), edges.q());
         let values = colours.into_iter().map(|(value, _)| value).collect();
@@ -176,19 +180,8 @@ struct Order<'a, 'm> {
     putting: Signal<'m>,
 }
 
-/// The first line of an edge.
-struct First<'m> {
-    own: Signal<'m>,
-    /// The two lines that it may be, and which of them it is.
-    of_top: Signal<'m>,
-    of_knee: Signal<'m>,
-    is_top: Signal<'m>,
-}
-
 /// What becomes of an edge.
 struct Ordered<'m> {
-    /// The edge goes behind the others.
-    appends: Signal<'m>,
     /// The edge goes before some others, which first move up.
     inserts: Signal<'m>,
     /// The others have moved, and the edge is put in its place.
@@ -197,35 +190,48 @@ struct Ordered<'m> {
 
 impl<'m> Order<'_, 'm> {
     /// Sorts an edge in by its first line: of equal lines the earlier edge stays first.
-    fn sort(&self, stores: Signal<'m>, firsts: &First<'m>) -> Ordered<'m> {
+    fn sort(&self, stores: Signal<'m>, first: Signal<'m>) -> Ordered<'m> {
         let Order { m, tables, prim_valid, bank, edges, putting } = *self;
-        let first = firsts.own;
-        m.comment("The order list: those that begin later move up, a clock each.");
+        m.comment("The order list: those that begin later move up, a clock each, the last first. The words before it are read two clocks ahead.");
         let last = m.reg("last_first", tables.line).doc("first line of the last edge of the list");
+        let last_index = m.reg("last_index", tables.index).doc("its number");
         let position = m.reg("position", tables.index).doc("the place that is free");
         let line = m.reg("put_line", tables.line).doc("first line of the edge that is put there");
-        let before = position.q().any();
         let own = Word { key: first, index: edges.trunc(tables.index) };
+        let number = m.reg("put_index", tables.index).doc("its number").when(!putting, own.index);
+        let put = Word { key: line.q(), index: number.q() };
+        line.when(!putting, first);
 
-        // Both lines are compared while it is found out which of them counts.
-        let of_top = firsts.of_top.ge(last.q()).named("top_later");
-        let of_knee = firsts.of_knee.ge(last.q()).named("knee_later");
-        let later = firsts.is_top.mux(of_top, of_knee) | !edges.any();
+        let later = first.ge(last.q()) | !edges.any();
         let later = later.named_doc("later", "no edge of the list begins later");
         let appends = (stores & later).named("appends");
         let inserts = (stores & !later).named("inserts");
-        // The edge's own number is that of the edges before it, until it is put.
-        let put = Word { key: line.q(), index: own.index };
-        let below = (putting.mux(position.q() - 1, edges.trunc(tables.index)) - 1).named("below");
-        let word = tables.word(tables.order.read(prim_valid, tables.at(bank, below)));
-        let moves = (putting & before & word.key.gt(line.q())).named("moves_up");
-        let ended = (putting & !moves).named("ended");
         last.when(appends, first);
-        line.when(!putting, first);
+        last_index.when(appends, own.index);
+        let top = Word { key: last.q(), index: last_index.q() };
+
+        let below = m.reg("next_below", tables.index).doc("place of the word that is read next");
+        let read = putting.mux(below.q(), edges.trunc(tables.index) - 2).named("read_below");
+        below.set(read - 1);
+        let read = tables.word(tables.order.read(prim_valid, tables.at(bank, read)));
+        let word = Word {
+            key: m
+                .reg("below_line", tables.line)
+                .doc("first line of the edge before the free place")
+                .set(read.key)
+                .q(),
+            index: m.reg("below_index", tables.index).doc("its number").set(read.index).q(),
+        };
+        let greater = m.reg("below_later", 1).doc("that edge begins later than the one that is put");
+        let greater = greater.set(read.key.gt(line.q())).q();
+        let moves_last = m.reg("moves_last", 1).doc("the last edge moves up").set(inserts).q();
+        let moves = (moves_last | (greater & position.q().any())).named("moves_up");
+        let ended = (putting & !moves).named("ended");
         let place = putting.mux(position.q(), edges.trunc(tables.index)).named("order_place");
-        position.set(place).when(moves, position.q() - 1);
-        let written = Word::choose(putting, Word::choose(moves, word, put), own);
+        position.set(place).when(putting & moves, position.q() - 1);
+        let moved = Word::choose(moves_last, top, word);
+        let written = Word::choose(putting, Word::choose(moves, moved, put), own);
         tables.order.write(appends | putting, tables.at(bank, place), written.joined());
-        Ordered { appends, inserts, ended }
+        Ordered { inserts, ended }
     }
 }

@@ -118,6 +118,8 @@ pub(super) fn corners(machine: &Plan) -> Vec<Case> {
             of(&columns.into_iter().chain([back]).collect::<Vec<_>>())
         }),
         case("a_long_way_down", of(&[square(1.0, 1.0, 2.0), square(6.0, h - 3.0, 2.0)])),
+        // The edges that go first are loaded last.
+        case("the_lower_half_first", of(&[square(6.0, h - 3.0, 2.0), square(1.0, 1.0, 2.0)])),
         // Without lines a triangle. With them a thin polygon, of two edges on most lines.
         case("a_line_behind_edges", {
             let line = machine.line([triangle[0], triangle[2]]);
