@@ -23,10 +23,9 @@ pub(super) struct Lengths<'m> {
 
 /// The steps of a search, each from its first clock on. Whole parts follow their rests a clock later.
 struct Clocks {
-    /// The differences of the ends' values by 1/M, after their sign.
+    /// The pair of the ends' difference over M is stored. Sums follow, over the distance down to the first line.
     store: u32,
-    /// The differences are multiplied by the distance down to the first line.
-    sum: u32,
+    /// The sums are over, and are doubled.
     double: u32,
     /// The value is rounded.
     value: u32,
@@ -39,10 +38,9 @@ impl Clocks {
         let (w, colour) = (plan.widths(), plan.channels()[COLOURS.start]);
         let up = colour.fraction - colour.vertex_fraction;
         let store = 2 + colour.vertex_bits();
-        let sum = store + 1;
-        let double = sum + w.difference - 1;
+        let double = store + w.difference;
         let value = double + up;
-        Clocks { store, sum, double, value, step: value + 1 + w.center_fraction + up }
+        Clocks { store, double, value, step: value + 1 + w.center_fraction + up }
     }
 }
 
@@ -86,16 +84,17 @@ impl<'m> Finds<'m> {
             m.reg(name, value.width()).doc(doc).when(reads, value).q()
         };
         let height = kept("height", lengths.height, "of the edge");
-        let sums = (at.q().ge(clocks.sum as i32) & at.q().lt(clocks.double as i32)).named("sums_down");
+        // What is added is chosen a clock ahead.
+        let sums = (at.q().ge(clocks.store as i32) & at.q().lt(clocks.double as i32 - 1)).named("sums_down");
         let bits = height.width();
         let whole_way = kept("down_way", lengths.down, "from the upper end to the first line");
         let down =
             m.reg("down_digits", bits).doc("digits of the lines down that are left, the highest first");
         down.when(self.seeks, stores.mux(whole_way, down.q().shl(1)));
-        let adds = (sums & down.q().msb()).named("adds_pair");
-        let adds_late =
-            m.reg("adds_whole", 1).doc("the pair's whole part is added").when(self.seeks, adds).q();
-        let digits = at.q().lt(clocks.store as i32).named("takes_digits");
+        let adds = (sums & stores.mux(whole_way.msb(), down.q().bit(bits - 2))).named("adds_pair");
+        let adds_rest = m.reg("adds_rest", 1).doc("the pair's rest is added").when(self.seeks, adds).q();
+        let adds_late = m.reg("adds_whole", 1).doc("its whole part is added").when(self.seeks, adds_rest).q();
+        let digits = at.q().lt(clocks.store as i32 - 1).named("takes_digits");
 
         let colours = &plan.channels()[COLOURS];
         let colour = |colour: &edgewalk_machine::Channel| {
@@ -106,7 +105,8 @@ impl<'m> Finds<'m> {
             let lower = kept(&name("to"), lower, "at the lower end");
             let less = (lower.zext(taken + 1) - upper.zext(taken + 1)).named(&name("rise"));
             let digit = m.reg(&name("digits"), taken).doc("digits of the difference that are left");
-            digit.when(self.seeks, begins.mux(less.trunc(taken), digit.q().shl(1)));
+            let digits_left = begins.mux(less.trunc(taken), digit.q().shl(1));
+            digit.when(self.seeks, digits_left);
             let register = |part: &str, bits: u32, doc: &str| m.reg(&name(part), bits).doc(doc);
             let whole = register("whole", word, "whole part of the pair, 2^-r LSB at last");
             let rest = register("rest", bits, "what is left over, in 1/M");
@@ -115,8 +115,10 @@ impl<'m> Finds<'m> {
 
             // M and 2 M are taken away side by side.
             let twice = rest.q().zext(bits + 3).shl(1);
-            let added = (digits & digit.q().msb()).zext(bits) | (pair_rest.q() & adds.sext(bits));
-            let added = added.zext(bits + 3);
+            let pair = stores.mux(rest.q(), pair_rest.q()) & adds.sext(bits);
+            let added = (digits & digits_left.msb()).zext(bits) | pair;
+            let added = register("added", bits, "a digit, or the pair's rest").when(self.seeks, added);
+            let added = added.q().zext(bits + 3);
             let doubled = (twice + added).named(&name("doubled"));
             let modulus = height.zext(bits + 3);
             let less_one = less_than(&name("less_one"), twice, added, modulus);

@@ -62,10 +62,12 @@ impl<'m> Between<'m> {
         let found = m.reg("last_digit", 1).set(digit).q();
         let pixel = m.lit(bits, 1 << fraction);
         let wide = apart.gt(pixel).named_doc("wide", "the edges are more than a pixel apart");
-        let turned = is(k - 1).mux(wide.mux(pixel, 0), digit.mux(less, doubled).trunc(bits));
+        let second =
+            m.reg("second_digits", 1).doc("those of a pixel follow").set(dividing.q() & is(k - 2)).q();
+        let turned = second.mux(wide.mux(pixel, 0), digit.mux(less, doubled).trunc(bits));
         rest.when(dividing.q(), turned).when(takes, into);
 
-        let restarts = is(k + 1).named_doc("second_sum", "the sums of a pixel begin");
+        let restarts = m.reg("second_sum", 1).doc("the sums of a pixel begin").set(dividing.q() & is(k)).q();
         let moves = (summing.q() & restarts).named_doc("starts", "the sums are those of the first pixel");
         let colour = |colour: usize| {
             let name = plan.channels()[COLOURS.start + colour].name;
