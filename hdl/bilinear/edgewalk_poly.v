@@ -101,34 +101,53 @@ module edgewalk_poly (
   reg [21:0] b_slopes [0:127];  // of each edge the colour's step to the next line
 
   // LOAD: the sides of a prim that count and have lines, one after the other.
-  reg bank;                                       // half of the table that is loaded
-  reg [6:0] edges;                                // in that half
-  reg over;                                       // there are more
-  reg putting;                                    // an edge goes before others of the order list
-  reg [2:0] did;                                  // sides of the prim that are loaded
+  reg bank;                                  // half of the table that is loaded
+  reg [6:0] edges;                           // in that half
+  reg over;                                  // there are more
+  reg putting;                               // an edge goes before others of the order list
+  reg [2:0] did;                             // sides of the prim that are chosen
   wire [9:0] all_lines = prim_n1 + prim_n2;
-  wire [8:0] knee = prim_jm + prim_n1[8:0];       // first line of the lower part
+  wire [8:0] knee = prim_jm + prim_n1[8:0];  // first line of the lower part
   wire major_left = prim_sides[0] && ((|prim_n1) || (|prim_n2)) && !did[0];
   wire minor1_left = prim_sides[1] && (|prim_n1) && !did[1];
   wire minor2_left = prim_sides[2] && (|prim_n2) && !did[2];
   wire any_left = major_left || minor1_left || minor2_left;
-  reg found;                                      // the colours of the edge are found
-  wire seeks = prim_valid && any_left && !found;  // colours of an edge are not found yet
+  reg edge_waits;                            // an edge is chosen, and not in the table
+  wire edge_stays = edge_waits && (pass_writes || putting);
+  reg found;                                 // the colours of the edge are found
+  wire seeks = prim_valid && any_left && !edge_stays && !found;  // colours of an edge are not found yet
   wire [2:0] turn = {minor2_left && !major_left && !minor1_left,
                      minor1_left && !major_left,
                      major_left};
-  wire takes = prim_valid && !putting && any_left && !pass_writes && found;  // a side is loaded
+  wire takes = prim_valid && any_left && !putting && !(edge_waits && pass_writes) && found;  // a side is chosen
   wire of_major = prim_sides[0] && !did[0];
-  wire [8:0] first_line = of_major ? prim_jm : minor1_left ? prim_jm : knee;
-  wire [9:0] lines = of_major ? all_lines : minor1_left ? prim_n1 : prim_n2;
-  wire [14:0] loaded_c = of_major ? prim_major_c : minor1_left ? prim_minor1_c : prim_minor2_c;
-  wire [15:0] loaded_dist = of_major ? prim_major_dist
-                          : minor1_left ? prim_minor1_dist
-                          : prim_minor2_dist;
-  wire [14:0] loaded_q = of_major ? prim_major_q : minor1_left ? prim_minor1_q : prim_minor2_q;
-  wire [15:0] loaded_f = of_major ? prim_major_f : minor1_left ? prim_minor1_f : prim_minor2_f;
+  reg [8:0] first_line;
+  reg [9:0] lines;
+  reg [14:0] loaded_c;
+  reg [15:0] loaded_dist;
+  reg [14:0] loaded_q;
+  reg [15:0] loaded_f;
   wire [21:0] edge_height = of_major ? prim_height02 : minor1_left ? prim_height01 : prim_height12;
   wire [21:0] edge_down = of_major ? prim_down0 : minor1_left ? prim_down0 : prim_down1;
+
+  always @(posedge clk) begin
+    if (rst) begin
+      edge_waits <= 1'b0;
+    end else begin
+      edge_waits <= takes || edge_stays;
+    end
+  end
+
+  always @(posedge clk) begin
+    if (!edge_stays) begin
+      first_line <= of_major ? prim_jm : minor1_left ? prim_jm : knee;
+      lines <= of_major ? all_lines : minor1_left ? prim_n1 : prim_n2;
+      loaded_c <= of_major ? prim_major_c : minor1_left ? prim_minor1_c : prim_minor2_c;
+      loaded_dist <= of_major ? prim_major_dist : minor1_left ? prim_minor1_dist : prim_minor2_dist;
+      loaded_q <= of_major ? prim_major_q : minor1_left ? prim_minor1_q : prim_minor2_q;
+      loaded_f <= of_major ? prim_major_f : minor1_left ? prim_minor1_f : prim_minor2_f;
+    end
+  end
 
   // Colours along an edge: pairs, whole and rest, of the modulus M, its height. First the difference of its ends over M, a digit a clock.
   reg [6:0] seek_at;                 // clocks of the search so far
@@ -142,12 +161,13 @@ module edgewalk_poly (
   wire step_found = seek_at == 7'd67;
   wire reads_edge = seeks && seek_reads;
   reg [21:0] height;                 // of the edge
-  wire sums_down = (seek_at >= 7'd15) && (seek_at < 7'd37);
+  wire sums_down = (seek_at >= 7'd14) && (seek_at < 7'd36);
   reg [21:0] down_way;               // from the upper end to the first line
   reg [21:0] down_digits;            // digits of the lines down that are left, the highest first
-  wire adds_pair = sums_down && down_digits[21];
-  reg adds_whole;                    // the pair's whole part is added
-  wire takes_digits = seek_at < 7'd14;
+  wire adds_pair = sums_down && (pair_stored ? down_way[21] : down_digits[20]);
+  reg adds_rest;                     // the pair's rest is added
+  reg adds_whole;                    // its whole part is added
+  wire takes_digits = seek_at < 7'd13;
   wire [11:0] r_upper = of_major ? prim_r_at0 : minor1_left ? prim_r_at0 : prim_r_at1;
   wire [11:0] r_lower = of_major ? prim_r_at2 : minor1_left ? prim_r_at1 : prim_r_at2;
   reg [11:0] r_from;                 // at the upper end
@@ -158,19 +178,20 @@ module edgewalk_poly (
   reg [21:0] r_rest;                 // what is left over, in 1/M
   reg [21:0] r_pair_whole;           // the difference over M: whole part
   reg [21:0] r_pair_rest;            // what is left over
+  reg [21:0] r_added;                // a digit, or the pair's rest
   wire [24:0] shifted = {3'd0, r_rest} << 1;
-  wire [21:0] either = {21'd0, takes_digits && r_digits[11]} | (r_pair_rest & {22{adds_pair}});
-  wire [24:0] extended = {3'd0, either};
-  wire [24:0] r_doubled = shifted + extended;
+  wire [24:0] r_doubled = shifted + {3'd0, r_added};
   wire [24:0] inverse = ~{3'd0, height};
-  wire [24:0] r_less_one_digits = shifted ^ extended ^ inverse;
-  wire [24:0] r_less_one_carries = (shifted & extended) | (shifted & inverse) | (extended & inverse);
+  wire [24:0] r_less_one_digits = shifted ^ {3'd0, r_added} ^ inverse;
+  wire [24:0] r_less_one_carries = (shifted & {3'd0, r_added})
+                                 | (shifted & inverse)
+                                 | ({3'd0, r_added} & inverse);
   wire [24:0] r_less_one = r_less_one_digits + {r_less_one_carries[23:0], 1'b1};
   wire [24:0] inverse_2 = ~({3'd0, height} << 1);
-  wire [24:0] r_less_two_digits = shifted ^ extended ^ inverse_2;
-  wire [24:0] r_less_two_carries = (shifted & extended)
+  wire [24:0] r_less_two_digits = shifted ^ {3'd0, r_added} ^ inverse_2;
+  wire [24:0] r_less_two_carries = (shifted & {3'd0, r_added})
                                  | (shifted & inverse_2)
-                                 | (extended & inverse_2);
+                                 | ({3'd0, r_added} & inverse_2);
   wire [24:0] r_less_two = r_less_two_digits + {r_less_two_carries[23:0], 1'b1};
   reg r_one;                         // M was in the rest
   reg r_two;                         // 2 M were in it
@@ -189,21 +210,20 @@ module edgewalk_poly (
   reg [21:0] g_rest;                 // what is left over, in 1/M
   reg [21:0] g_pair_whole;           // the difference over M: whole part
   reg [21:0] g_pair_rest;            // what is left over
+  reg [21:0] g_added;                // a digit, or the pair's rest
   wire [24:0] shifted_2 = {3'd0, g_rest} << 1;
-  wire [21:0] either_2 = {21'd0, takes_digits && g_digits[11]} | (g_pair_rest & {22{adds_pair}});
-  wire [24:0] extended_2 = {3'd0, either_2};
-  wire [24:0] g_doubled = shifted_2 + extended_2;
+  wire [24:0] g_doubled = shifted_2 + {3'd0, g_added};
   wire [24:0] inverse_3 = ~{3'd0, height};
-  wire [24:0] g_less_one_digits = shifted_2 ^ extended_2 ^ inverse_3;
-  wire [24:0] g_less_one_carries = (shifted_2 & extended_2)
+  wire [24:0] g_less_one_digits = shifted_2 ^ {3'd0, g_added} ^ inverse_3;
+  wire [24:0] g_less_one_carries = (shifted_2 & {3'd0, g_added})
                                  | (shifted_2 & inverse_3)
-                                 | (extended_2 & inverse_3);
+                                 | ({3'd0, g_added} & inverse_3);
   wire [24:0] g_less_one = g_less_one_digits + {g_less_one_carries[23:0], 1'b1};
   wire [24:0] inverse_4 = ~({3'd0, height} << 1);
-  wire [24:0] g_less_two_digits = shifted_2 ^ extended_2 ^ inverse_4;
-  wire [24:0] g_less_two_carries = (shifted_2 & extended_2)
+  wire [24:0] g_less_two_digits = shifted_2 ^ {3'd0, g_added} ^ inverse_4;
+  wire [24:0] g_less_two_carries = (shifted_2 & {3'd0, g_added})
                                  | (shifted_2 & inverse_4)
-                                 | (extended_2 & inverse_4);
+                                 | ({3'd0, g_added} & inverse_4);
   wire [24:0] g_less_two = g_less_two_digits + {g_less_two_carries[23:0], 1'b1};
   reg g_one;                         // M was in the rest
   reg g_two;                         // 2 M were in it
@@ -222,21 +242,20 @@ module edgewalk_poly (
   reg [21:0] b_rest;                 // what is left over, in 1/M
   reg [21:0] b_pair_whole;           // the difference over M: whole part
   reg [21:0] b_pair_rest;            // what is left over
+  reg [21:0] b_added;                // a digit, or the pair's rest
   wire [24:0] shifted_3 = {3'd0, b_rest} << 1;
-  wire [21:0] either_3 = {21'd0, takes_digits && b_digits[11]} | (b_pair_rest & {22{adds_pair}});
-  wire [24:0] extended_3 = {3'd0, either_3};
-  wire [24:0] b_doubled = shifted_3 + extended_3;
+  wire [24:0] b_doubled = shifted_3 + {3'd0, b_added};
   wire [24:0] inverse_5 = ~{3'd0, height};
-  wire [24:0] b_less_one_digits = shifted_3 ^ extended_3 ^ inverse_5;
-  wire [24:0] b_less_one_carries = (shifted_3 & extended_3)
+  wire [24:0] b_less_one_digits = shifted_3 ^ {3'd0, b_added} ^ inverse_5;
+  wire [24:0] b_less_one_carries = (shifted_3 & {3'd0, b_added})
                                  | (shifted_3 & inverse_5)
-                                 | (extended_3 & inverse_5);
+                                 | ({3'd0, b_added} & inverse_5);
   wire [24:0] b_less_one = b_less_one_digits + {b_less_one_carries[23:0], 1'b1};
   wire [24:0] inverse_6 = ~({3'd0, height} << 1);
-  wire [24:0] b_less_two_digits = shifted_3 ^ extended_3 ^ inverse_6;
-  wire [24:0] b_less_two_carries = (shifted_3 & extended_3)
+  wire [24:0] b_less_two_digits = shifted_3 ^ {3'd0, b_added} ^ inverse_6;
+  wire [24:0] b_less_two_carries = (shifted_3 & {3'd0, b_added})
                                  | (shifted_3 & inverse_6)
-                                 | (extended_3 & inverse_6);
+                                 | ({3'd0, b_added} & inverse_6);
   wire [24:0] b_less_two = b_less_two_digits + {b_less_two_carries[23:0], 1'b1};
   reg b_one;                         // M was in the rest
   reg b_two;                         // 2 M were in it
@@ -245,13 +264,14 @@ module edgewalk_poly (
   reg [21:0] b_edge_value;           // on the edge's first line, 2^-r LSB
   wire [21:0] b_rounded = b_whole + {21'd0, b_one};
   reg [21:0] b_edge_step;            // to the next line
-  reg through;                       // no side of the prim was left in the clock before
-  assign prim_ready = through && !(prim_ends && (walking || fresh_queued));
+  reg through;                       // no side of the prim is left, and none waits
+  assign prim_ready = through && !putting && !(prim_ends && (walking || fresh_queued));
   wire fires = prim_valid && prim_ready;
   wire closes = fires && prim_ends;  // the polygon has all its edges
   wire begins = closes && (|edges) && !over && !prim_void;
   assign refused = closes && over;
-  wire stores = takes && !edges[6];
+  wire loads = edge_waits && !edge_stays;
+  wire stores = loads && !edges[6];
   wire [6:0] load_place = {bank, edges[5:0]};
 
   always @(posedge clk) begin
@@ -302,30 +322,36 @@ module edgewalk_poly (
     end
   end
 
+  wire [11:0] choice = seek_begins ? r_rise[11:0] : r_digits << 1;
   wire inverse_7 = !r_less_one[24];
   wire inverse_8 = !r_less_two[24];
   wire [21:0] sum = (r_whole << 1)
                   + (r_pair_whole & {22{adds_whole}})
                   + {20'd0, {r_two, r_one && !r_two}};
-  wire [24:0] choice = inverse_8 ? r_less_two : inverse_7 ? r_less_one : r_doubled;
+  wire [24:0] choice_2 = inverse_8 ? r_less_two : inverse_7 ? r_less_one : r_doubled;
+  wire [11:0] choice_3 = seek_begins ? g_rise[11:0] : g_digits << 1;
   wire inverse_9 = !g_less_one[24];
   wire inverse_10 = !g_less_two[24];
   wire [21:0] sum_2 = (g_whole << 1)
                     + (g_pair_whole & {22{adds_whole}})
                     + {20'd0, {g_two, g_one && !g_two}};
-  wire [24:0] choice_2 = inverse_10 ? g_less_two : inverse_9 ? g_less_one : g_doubled;
+  wire [24:0] choice_4 = inverse_10 ? g_less_two : inverse_9 ? g_less_one : g_doubled;
+  wire [11:0] choice_5 = seek_begins ? b_rise[11:0] : b_digits << 1;
   wire inverse_11 = !b_less_one[24];
   wire inverse_12 = !b_less_two[24];
   wire [21:0] sum_3 = (b_whole << 1)
                     + (b_pair_whole & {22{adds_whole}})
                     + {20'd0, {b_two, b_one && !b_two}};
-  wire [24:0] choice_3 = inverse_12 ? b_less_two : inverse_11 ? b_less_one : b_doubled;
+  wire [24:0] choice_6 = inverse_12 ? b_less_two : inverse_11 ? b_less_one : b_doubled;
 
   always @(posedge clk) begin
     if (seeks) begin
       down_digits <= pair_stored ? down_way : down_digits << 1;
-      adds_whole <= adds_pair;
-      r_digits <= seek_begins ? r_rise[11:0] : r_digits << 1;
+      adds_rest <= adds_pair;
+      adds_whole <= adds_rest;
+      r_digits <= choice;
+      r_added <= {21'd0, takes_digits && choice[11]}
+               | ((pair_stored ? r_rest : r_pair_rest) & {22{adds_pair}});
       r_one <= inverse_7;
       r_two <= inverse_8;
       r_whole <= whole_begins ? {22{r_rise[12]}}
@@ -335,8 +361,10 @@ module edgewalk_poly (
       r_rest <= seek_begins ? (r_rise[12] ? height - 22'd1 : 22'd0)
               : pair_stored ? 22'd0
               : value_found ? r_pair_rest
-              : choice[21:0];
-      g_digits <= seek_begins ? g_rise[11:0] : g_digits << 1;
+              : choice_2[21:0];
+      g_digits <= choice_3;
+      g_added <= {21'd0, takes_digits && choice_3[11]}
+               | ((pair_stored ? g_rest : g_pair_rest) & {22{adds_pair}});
       g_one <= inverse_9;
       g_two <= inverse_10;
       g_whole <= whole_begins ? {22{g_rise[12]}}
@@ -346,8 +374,10 @@ module edgewalk_poly (
       g_rest <= seek_begins ? (g_rise[12] ? height - 22'd1 : 22'd0)
               : pair_stored ? 22'd0
               : value_found ? g_pair_rest
-              : choice_2[21:0];
-      b_digits <= seek_begins ? b_rise[11:0] : b_digits << 1;
+              : choice_4[21:0];
+      b_digits <= choice_5;
+      b_added <= {21'd0, takes_digits && choice_5[11]}
+               | ((pair_stored ? b_rest : b_pair_rest) & {22{adds_pair}});
       b_one <= inverse_11;
       b_two <= inverse_12;
       b_whole <= whole_begins ? {22{b_rise[12]}}
@@ -357,7 +387,7 @@ module edgewalk_poly (
       b_rest <= seek_begins ? (b_rise[12] ? height - 22'd1 : 22'd0)
               : pair_stored ? 22'd0
               : value_found ? b_pair_rest
-              : choice_3[21:0];
+              : choice_6[21:0];
     end
   end
 
@@ -397,7 +427,7 @@ module edgewalk_poly (
     if (rst) begin
       through <= 1'b0;
     end else begin
-      through <= prim_valid && !any_left && !putting && !fires;
+      through <= prim_valid && !any_left && !edge_stays && !fires;
     end
   end
 
@@ -422,49 +452,71 @@ module edgewalk_poly (
     if (rst) begin
       over <= 1'b0;
     end else begin
-      if (takes && edges[6]) over <= 1'b1;
+      if (loads && edges[6]) over <= 1'b1;
       if (closes) over <= 1'b0;
     end
   end
 
-  // The order list: those that begin later move up, a clock each.
+  // The order list: those that begin later move up, a clock each, the last first. The words before it are read two clocks ahead.
   reg [8:0] last_first;  // first line of the last edge of the list
+  reg [5:0] last_index;  // its number
   reg [5:0] position;    // the place that is free
   reg [8:0] put_line;    // first line of the edge that is put there
-  wire top_later = prim_jm >= last_first;
-  wire knee_later = knee >= last_first;
-  wire later = ((of_major || minor1_left) ? top_later : knee_later) || !(|edges);  // no edge of the list begins later
+  reg [5:0] put_index;   // its number
+  wire later = (first_line >= last_first) || !(|edges);  // no edge of the list begins later
   wire appends = stores && later;
   wire inserts = stores && !later;
-  wire [5:0] below = (putting ? position - 6'd1 : edges[5:0]) - 6'd1;
+  reg [5:0] next_below;  // place of the word that is read next
+  wire [5:0] read_below = putting ? next_below : edges[5:0] - 6'd2;
   reg [14:0] order_q;
 
   always @(posedge clk) begin
-    if (prim_valid) order_q <= order[{bank, below}];
+    if (prim_valid) order_q <= order[{bank, read_below}];
   end
 
-  wire moves_up = putting && (|position) && (order_q[14:6] > put_line);
+  reg [8:0] below_line;   // first line of the edge before the free place
+  reg [5:0] below_index;  // its number
+  reg below_later;        // that edge begins later than the one that is put
+  reg moves_last;         // the last edge moves up
+  wire moves_up = moves_last || (below_later && (|position));
   wire ended = putting && !moves_up;
   wire [5:0] order_place = putting ? position : edges[5:0];
+  wire [8:0] choice_7 = putting ? (moves_up ? (moves_last ? last_first : below_line) : put_line)
+                      : first_line;
+  wire [5:0] choice_8 = putting ? (moves_up ? (moves_last ? last_index : below_index) : put_index)
+                      : edges[5:0];
 
   always @(posedge clk) begin
-    if (appends || putting) order[{bank, order_place}] <= {putting ? (moves_up ? order_q[14:6] : put_line) : first_line,
- putting ? (moves_up ? order_q[5:0] : edges[5:0]) : edges[5:0]};
+    if (appends || putting) order[{bank, order_place}] <= {choice_7, choice_8};
   end
 
   wire pair_leaves;  // MOVER takes the pair that waits, or drops it
 
   always @(posedge clk) begin
-    if (appends) last_first <= first_line;
+    if (!putting) begin
+      put_index <= edges[5:0];
+      put_line <= first_line;
+    end
   end
 
   always @(posedge clk) begin
-    if (!putting) put_line <= first_line;
+    if (appends) begin
+      last_first <= first_line;
+      last_index <= edges[5:0];
+    end
+  end
+
+  always @(posedge clk) begin
+    next_below <= read_below - 6'd1;
+    below_line <= order_q[14:6];
+    below_index <= order_q[5:0];
+    below_later <= order_q[14:6] > put_line;
+    moves_last <= inserts;
   end
 
   always @(posedge clk) begin
     position <= order_place;
-    if (moves_up) position <= position - 6'd1;
+    if (putting && moves_up) position <= position - 6'd1;
   end
 
   always @(posedge clk) begin
@@ -480,7 +532,7 @@ module edgewalk_poly (
     if (rst) begin
       edges <= 7'd0;
     end else begin
-      if (appends || ended) edges <= edges + 7'd1;
+      if (stores) edges <= edges + 7'd1;
       if (closes) edges <= 7'd0;
     end
   end
@@ -772,28 +824,28 @@ module edgewalk_poly (
   reg [9:0] d_lines_left;
   reg writes;                                        // the record of D is written
   wire rests_written = stores || writes;
-  wire [6:0] choice_4 = writes ? {!bank, d_index} : load_place;
+  wire [6:0] choice_9 = writes ? {!bank, d_index} : load_place;
 
   always @(posedge clk) begin
-    if (rests_written) rests[choice_4] <= writes ? {d_rest, d_lines_left} : {first_rest, lines};
+    if (rests_written) rests[choice_9] <= writes ? {d_rest, d_lines_left} : {first_rest, lines};
   end
 
   reg [21:0] d_r;
 
   always @(posedge clk) begin
-    if (rests_written) r_values[choice_4] <= writes ? d_r : r_edge_value;
+    if (rests_written) r_values[choice_9] <= writes ? d_r : r_edge_value;
   end
 
   reg [21:0] d_g;
 
   always @(posedge clk) begin
-    if (rests_written) g_values[choice_4] <= writes ? d_g : g_edge_value;
+    if (rests_written) g_values[choice_9] <= writes ? d_g : g_edge_value;
   end
 
   reg [21:0] d_b;
 
   always @(posedge clk) begin
-    if (rests_written) b_values[choice_4] <= writes ? d_b : b_edge_value;
+    if (rests_written) b_values[choice_9] <= writes ? d_b : b_edge_value;
   end
 
   always @(posedge clk) begin
@@ -995,15 +1047,13 @@ module edgewalk_poly (
     if (takes_pair) begin
       at_line <= pair_line;
       at_column <= pair_first[9:0];
+      to_left <= beside[10];
     end
     if (!walking) begin
       at_line <= prim_start_y;
       at_column <= prim_start_x;
+      to_left <= 1'b0;
     end
-  end
-
-  always @(posedge clk) begin
-    if (takes_pair) to_left <= beside[10];
   end
 
   always @(posedge clk) begin
@@ -1023,16 +1073,17 @@ module edgewalk_poly (
   wire [9:0] shifted_4 = columns_along >> 1;
 
   always @(posedge clk) begin
-    if (doubles) columns_along <= shifted_4;
-    if (takes_pair) columns_along <= columns_away;
-  end
-
-  always @(posedge clk) begin
-    if (rst) begin
-      along <= 1'b0;
-    end else begin
-      if (doubles) along <= |shifted_4;
-      if (takes_pair) along <= pair_first[9:0] != at_column;
+    if (doubles) begin
+      columns_along <= shifted_4;
+      along <= |shifted_4;
+    end
+    if (takes_pair) begin
+      columns_along <= columns_away;
+      along <= pair_first[9:0] != at_column;
+    end
+    if (!walking) begin
+      columns_along <= 10'd1;
+      along <= 1'b1;
     end
   end
 
@@ -1048,7 +1099,8 @@ module edgewalk_poly (
   wire digit = !less_apart[32];
   reg last_digit;
   wire wide = apart > 31'h10000;        // the edges are more than a pixel apart
-  wire second_sum = turns == 6'd24;     // the sums of a pixel begin
+  reg second_digits;                    // those of a pixel follow
+  reg second_sum;                       // the sums of a pixel begin
   wire starts = summing && second_sum;  // the sums are those of the first pixel
   reg [22:0] r_difference;              // of the right and the left edge, signed
   reg [45:0] r_sum;                     // times the digits so far, signed
@@ -1062,12 +1114,12 @@ module edgewalk_poly (
   reg offers;                           // the span is offered
   wire grants = has_span && !down && !along && !dividing && !summing && !offers && !fresh_queued;  // its increments are shown, and it is offered
   assign line_valid = has_span && offers;
-  wire [32:0] choice_5 = digit ? less_apart : shifted_5;
+  wire [32:0] choice_10 = digit ? less_apart : shifted_5;
 
   always @(posedge clk) begin
     if (dividing) begin
       turns <= turns + 6'd1;
-      apart_rest <= (turns == 6'd22) ? (wide ? 31'h10000 : 31'd0) : choice_5[30:0];
+      apart_rest <= second_digits ? (wide ? 31'h10000 : 31'd0) : choice_10[30:0];
     end
     if (takes_pair) begin
       turns <= 6'd0;
@@ -1103,6 +1155,8 @@ module edgewalk_poly (
 
   always @(posedge clk) begin
     last_digit <= digit;
+    second_digits <= dividing && (turns == 6'd21);
+    second_sum <= dividing && (turns == 6'd23);
   end
 
   always @(posedge clk) begin
@@ -1186,11 +1240,12 @@ module edgewalk_poly (
   always @(posedge clk) begin
     if (doubles) z_along <= z_along << 1;
     if (takes_pair) z_along <= inc_z;
+    if (!walking) z_along <= prim_z_start;
   end
 
   always @(posedge clk) begin
     if (adds) line_z <= z_moved[38:1];
-    if (!walking) line_z <= prim_z_start;
+    if (!walking) line_z <= 38'd0;
   end
 
   assign line_major_right = 1'b0;
@@ -1201,8 +1256,8 @@ module edgewalk_poly (
   wire unused = &{
     1'b0, prim_major_right, r_less_one_carries[24], r_less_two_carries[24], r_first[0],
     g_less_one_carries[24], g_less_two_carries[24], g_first[0], b_less_one_carries[24],
-    b_less_two_carries[24], b_first[0], z_moved[0], choice[24:22], choice_2[24:22], choice_3[24:22],
-    choice_5[32:31]
+    b_less_two_carries[24], b_first[0], z_moved[0], choice_2[24:22], choice_4[24:22], choice_6[24:22],
+    choice_10[32:31]
   };
 
 endmodule

@@ -93,40 +93,40 @@ module edgewalk_poly (
   reg [20:0] lists [0:127];  // column and number of each active edge, by the column
 
   // LOAD: the sides of a prim that count and have lines, one after the other.
-  reg bank;                                     // half of the table that is loaded
-  reg [6:0] edges;                              // in that half
-  reg over;                                     // there are more
-  reg putting;                                  // an edge goes before others of the order list
-  reg [2:0] did;                                // sides of the prim that are loaded
+  reg bank;                                       // half of the table that is loaded
+  reg [6:0] edges;                                // in that half
+  reg over;                                       // there are more
+  reg putting;                                    // an edge goes before others of the order list
+  reg [2:0] did;                                  // sides of the prim that are chosen
   wire [9:0] all_lines = prim_n1 + prim_n2;
-  wire [8:0] knee = prim_jm + prim_n1[8:0];     // first line of the lower part
+  wire [8:0] knee = prim_jm + prim_n1[8:0];       // first line of the lower part
   wire major_left = prim_sides[0] && ((|prim_n1) || (|prim_n2)) && !did[0];
   wire minor1_left = prim_sides[1] && (|prim_n1) && !did[1];
   wire minor2_left = prim_sides[2] && (|prim_n2) && !did[2];
   wire any_left = major_left || minor1_left || minor2_left;
+  reg edge_waits;                                 // an edge is chosen, and not in the table
+  wire edge_stays = edge_waits && (pass_writes || putting);
   wire [2:0] turn = {minor2_left && !major_left && !minor1_left,
                      minor1_left && !major_left,
                      major_left};
-  wire takes = prim_valid && !putting && any_left && !pass_writes;  // a side is loaded
+  wire takes = prim_valid && any_left && !putting && !(edge_waits && pass_writes);  // a side is chosen
   wire of_major = prim_sides[0] && !did[0];
-  wire [8:0] first_line = of_major ? prim_jm : minor1_left ? prim_jm : knee;
-  wire [9:0] lines = of_major ? all_lines : minor1_left ? prim_n1 : prim_n2;
-  wire [14:0] loaded_c = of_major ? prim_major_c : minor1_left ? prim_minor1_c : prim_minor2_c;
-  wire [21:0] loaded_dist = of_major ? prim_major_dist
-                          : minor1_left ? prim_minor1_dist
-                          : prim_minor2_dist;
-  wire [14:0] loaded_q = of_major ? prim_major_q : minor1_left ? prim_minor1_q : prim_minor2_q;
-  wire [21:0] loaded_f = of_major ? prim_major_f : minor1_left ? prim_minor1_f : prim_minor2_f;
-  wire [21:0] choice = of_major ? prim_major_m : minor1_left ? prim_minor1_m : prim_minor2_m;
-  wire [21:0] extended = of_major ? prim_major_f : minor1_left ? prim_minor1_f : prim_minor2_f;
-  wire [21:0] loaded_back = choice - extended;  // M - f
-  reg through;                                  // no side of the prim was left in the clock before
-  assign prim_ready = through && !(prim_ends && (walking || fresh_queued));
+  reg [8:0] first_line;
+  reg [9:0] lines;
+  reg [14:0] loaded_c;
+  reg [21:0] loaded_dist;
+  reg [14:0] loaded_q;
+  reg [21:0] loaded_f;
+  reg [21:0] loaded_m;
+  wire [21:0] loaded_back = loaded_m - loaded_f;  // M - f
+  reg through;                                    // no side of the prim is left, and none waits
+  assign prim_ready = through && !putting && !(prim_ends && (walking || fresh_queued));
   wire fires = prim_valid && prim_ready;
-  wire closes = fires && prim_ends;             // the polygon has all its edges
+  wire closes = fires && prim_ends;               // the polygon has all its edges
   wire begins = closes && (|edges) && !over && !prim_void;
   assign refused = closes && over;
-  wire stores = takes && !edges[6];
+  wire loads = edge_waits && !edge_stays;
+  wire stores = loads && !edges[6];
   wire [6:0] load_place = {bank, edges[5:0]};
 
   always @(posedge clk) begin
@@ -137,9 +137,23 @@ module edgewalk_poly (
 
   always @(posedge clk) begin
     if (rst) begin
+      edge_waits <= 1'b0;
       through <= 1'b0;
     end else begin
-      through <= prim_valid && !any_left && !putting && !fires;
+      edge_waits <= takes || edge_stays;
+      through <= prim_valid && !any_left && !edge_stays && !fires;
+    end
+  end
+
+  always @(posedge clk) begin
+    if (!edge_stays) begin
+      first_line <= of_major ? prim_jm : minor1_left ? prim_jm : knee;
+      lines <= of_major ? all_lines : minor1_left ? prim_n1 : prim_n2;
+      loaded_c <= of_major ? prim_major_c : minor1_left ? prim_minor1_c : prim_minor2_c;
+      loaded_dist <= of_major ? prim_major_dist : minor1_left ? prim_minor1_dist : prim_minor2_dist;
+      loaded_q <= of_major ? prim_major_q : minor1_left ? prim_minor1_q : prim_minor2_q;
+      loaded_f <= of_major ? prim_major_f : minor1_left ? prim_minor1_f : prim_minor2_f;
+      loaded_m <= of_major ? prim_major_m : minor1_left ? prim_minor1_m : prim_minor2_m;
     end
   end
 
@@ -164,49 +178,71 @@ module edgewalk_poly (
     if (rst) begin
       over <= 1'b0;
     end else begin
-      if (takes && edges[6]) over <= 1'b1;
+      if (loads && edges[6]) over <= 1'b1;
       if (closes) over <= 1'b0;
     end
   end
 
-  // The order list: those that begin later move up, a clock each.
+  // The order list: those that begin later move up, a clock each, the last first. The words before it are read two clocks ahead.
   reg [8:0] last_first;  // first line of the last edge of the list
+  reg [5:0] last_index;  // its number
   reg [5:0] position;    // the place that is free
   reg [8:0] put_line;    // first line of the edge that is put there
-  wire top_later = prim_jm >= last_first;
-  wire knee_later = knee >= last_first;
-  wire later = ((of_major || minor1_left) ? top_later : knee_later) || !(|edges);  // no edge of the list begins later
+  reg [5:0] put_index;   // its number
+  wire later = (first_line >= last_first) || !(|edges);  // no edge of the list begins later
   wire appends = stores && later;
   wire inserts = stores && !later;
-  wire [5:0] below = (putting ? position - 6'd1 : edges[5:0]) - 6'd1;
+  reg [5:0] next_below;  // place of the word that is read next
+  wire [5:0] read_below = putting ? next_below : edges[5:0] - 6'd2;
   reg [14:0] order_q;
 
   always @(posedge clk) begin
-    if (prim_valid) order_q <= order[{bank, below}];
+    if (prim_valid) order_q <= order[{bank, read_below}];
   end
 
-  wire moves_up = putting && (|position) && (order_q[14:6] > put_line);
+  reg [8:0] below_line;   // first line of the edge before the free place
+  reg [5:0] below_index;  // its number
+  reg below_later;        // that edge begins later than the one that is put
+  reg moves_last;         // the last edge moves up
+  wire moves_up = moves_last || (below_later && (|position));
   wire ended = putting && !moves_up;
   wire [5:0] order_place = putting ? position : edges[5:0];
+  wire [8:0] choice = putting ? (moves_up ? (moves_last ? last_first : below_line) : put_line)
+                    : first_line;
+  wire [5:0] choice_2 = putting ? (moves_up ? (moves_last ? last_index : below_index) : put_index)
+                      : edges[5:0];
 
   always @(posedge clk) begin
-    if (appends || putting) order[{bank, order_place}] <= {putting ? (moves_up ? order_q[14:6] : put_line) : first_line,
- putting ? (moves_up ? order_q[5:0] : edges[5:0]) : edges[5:0]};
+    if (appends || putting) order[{bank, order_place}] <= {choice, choice_2};
   end
 
   wire pair_leaves;  // MOVER takes the pair that waits, or drops it
 
   always @(posedge clk) begin
-    if (appends) last_first <= first_line;
+    if (!putting) begin
+      put_index <= edges[5:0];
+      put_line <= first_line;
+    end
   end
 
   always @(posedge clk) begin
-    if (!putting) put_line <= first_line;
+    if (appends) begin
+      last_first <= first_line;
+      last_index <= edges[5:0];
+    end
+  end
+
+  always @(posedge clk) begin
+    next_below <= read_below - 6'd1;
+    below_line <= order_q[14:6];
+    below_index <= order_q[5:0];
+    below_later <= order_q[14:6] > put_line;
+    moves_last <= inserts;
   end
 
   always @(posedge clk) begin
     position <= order_place;
-    if (moves_up) position <= position - 6'd1;
+    if (putting && moves_up) position <= position - 6'd1;
   end
 
   always @(posedge clk) begin
@@ -222,7 +258,7 @@ module edgewalk_poly (
     if (rst) begin
       edges <= 7'd0;
     end else begin
-      if (appends || ended) edges <= edges + 7'd1;
+      if (stores) edges <= edges + 7'd1;
       if (closes) edges <= 7'd0;
     end
   end
@@ -645,15 +681,13 @@ module edgewalk_poly (
     if (takes_pair) begin
       at_line <= pair_line;
       at_column <= pair_first[9:0];
+      to_left <= beside[10];
     end
     if (!walking) begin
       at_line <= prim_start_y;
       at_column <= prim_start_x;
+      to_left <= 1'b0;
     end
-  end
-
-  always @(posedge clk) begin
-    if (takes_pair) to_left <= beside[10];
   end
 
   always @(posedge clk) begin
@@ -673,16 +707,17 @@ module edgewalk_poly (
   wire [9:0] shifted = columns_along >> 1;
 
   always @(posedge clk) begin
-    if (doubles) columns_along <= shifted;
-    if (takes_pair) columns_along <= columns_away;
-  end
-
-  always @(posedge clk) begin
-    if (rst) begin
-      along <= 1'b0;
-    end else begin
-      if (doubles) along <= |shifted;
-      if (takes_pair) along <= pair_first[9:0] != at_column;
+    if (doubles) begin
+      columns_along <= shifted;
+      along <= |shifted;
+    end
+    if (takes_pair) begin
+      columns_along <= columns_away;
+      along <= pair_first[9:0] != at_column;
+    end
+    if (!walking) begin
+      columns_along <= 10'd1;
+      along <= 1'b1;
     end
   end
 
@@ -751,6 +786,12 @@ module edgewalk_poly (
       g_along <= inc_g;
       b_along <= inc_b;
     end
+    if (!walking) begin
+      z_along <= prim_z_start;
+      r_along <= prim_r_start;
+      g_along <= prim_g_start;
+      b_along <= prim_b_start;
+    end
   end
 
   always @(posedge clk) begin
@@ -761,10 +802,10 @@ module edgewalk_poly (
       line_b <= b_moved[22:1];
     end
     if (!walking) begin
-      line_z <= prim_z_start;
-      line_r <= prim_r_start;
-      line_g <= prim_g_start;
-      line_b <= prim_b_start;
+      line_z <= 38'd0;
+      line_r <= 22'd0;
+      line_g <= 22'd0;
+      line_b <= 22'd0;
     end
   end
 
