@@ -55,8 +55,8 @@ struct Row {
     name: String,
     /// Hash of the machine.
     machine: String,
-    /// A number for what the netlist computes.
-    shape: String,
+    /// A number for what the netlist computes. The text does not tell it.
+    shape: Option<String>,
     #[serde(flatten)]
     estimate: Estimate,
     /// Devices of --fits.
@@ -85,10 +85,12 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
         let structure = part.structure(plan, &kept).map_err(built)?;
         let estimate = fit.estimate(&structure);
         let milliseconds = since.elapsed().as_secs_f64() * 1000.0;
+        let shape = talk.json.then(|| part.shape(plan).map(|shape| format!("{shape:016x}"))).transpose();
+        let shape = shape.map_err(built)?;
         rows.push(Row {
             name: if name.is_empty() { "default".to_owned() } else { name.clone() },
             machine: plan.hash(),
-            shape: format!("{:016x}", part.shape(plan).map_err(built)?),
+            shape,
             fits: devices.iter().map(|device| fits(&estimate, memories(plan, part), device)).collect(),
             estimate,
             milliseconds,

@@ -8,6 +8,7 @@ use super::ports::{Seen, View};
 use super::structure::{Structure, UnitTables};
 use super::ways::{Way, longer};
 use edgewalk_netlist::Netlist;
+use rayon::prelude::*;
 use std::num::NonZeroU32;
 use std::sync::Arc;
 
@@ -56,7 +57,7 @@ pub(super) fn compose(kept: &Kept, joints: Unit, units: Vec<Unit>) -> Structure 
     let mut composed = Composed::new(kept, joints, units);
     let settled = composed.settle();
     let viewed: Vec<Arc<Viewed>> = settled.iter().map(|of| of.viewed.clone()).collect();
-    let modules = composed.modules.iter().zip(settled).zip(&viewed);
+    let modules = composed.modules.par_iter().zip(settled).zip(&viewed);
     let found = modules.map(|((unit, of), viewed)| kept.module(unit, &of.view, viewed, of.logic));
     composed.structure(&found.collect::<Vec<_>>())
 }
@@ -122,8 +123,10 @@ impl<'k> Composed<'k> {
         let (mut step, mut news, mut looked) = (1, 1, vec![0; self.modules.len()]);
         for round in 0..ROUNDS {
             for place in 0..self.modules.len() {
-                // Unread bits are told from the last unit to the first. Constant and equal bits are told the other way.
-                let place = if round % 2 == 0 { self.modules.len() - 1 - place } else { place };
+                // What joins the units comes first in each round. Unread bits are told from the last unit to the first.
+                // Constant and equal bits are told the other way.
+                let count = self.modules.len();
+                let place = if round % 2 == 0 { (count - place) % count } else { place };
                 if looked[place] >= news {
                     continue;
                 }

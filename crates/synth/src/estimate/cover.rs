@@ -4,7 +4,7 @@ use super::build::Built;
 use super::graph::{Lit, Node};
 
 /// Cuts kept of a node.
-const KEPT: usize = 6;
+const KEPT: usize = 4;
 const INPUTS: usize = 4;
 
 /// A way to compute a node: a table of these.
@@ -89,8 +89,10 @@ impl Cut {
 struct Mapper<'b> {
     nodes: &'b [Node],
     live: Vec<bool>,
-    /// By node: its cuts, the chosen one first.
+    /// By live node of two: its cuts, the chosen one first.
     cuts: Vec<[Cut; KEPT]>,
+    /// By node: where its cuts stand.
+    place: Vec<u32>,
     count: Vec<u8>,
     depth: Vec<u16>,
     flow: Vec<f32>,
@@ -157,10 +159,19 @@ pub(super) fn cover(built: &Built) -> Cover {
     let live = live(built);
     let roots = roots(built, &live);
     let count = built.graph.nodes.len();
+    let mut cuts = 0;
+    let mut place = vec![0; count];
+    for (node, place) in place.iter_mut().enumerate() {
+        if live[node] && matches!(built.graph.nodes[node], Node::And(..)) {
+            *place = cuts;
+            cuts += 1;
+        }
+    }
     let mut mapper = Mapper {
         nodes: &built.graph.nodes,
         live,
-        cuts: vec![[Cut::default(); KEPT]; count],
+        cuts: vec![[Cut::default(); KEPT]; cuts as usize],
+        place,
         count: vec![0; count],
         depth: vec![0; count],
         flow: vec![0.0; count],
@@ -174,14 +185,18 @@ pub(super) fn cover(built: &Built) -> Cover {
     mapper.choose();
     mapper.enumerate(false);
     mapper.choose();
-    for _ in 0..2 {
-        mapper.recover();
-        mapper.choose();
-    }
     mapper.finish()
 }
 
 impl Mapper<'_> {
+    /// The cuts of a node; none before they are enumerated.
+    fn cuts_of(&self, node: usize) -> &[Cut] {
+        match self.count[node] as usize {
+            0 => &[],
+            count => &self.cuts[self.place[node] as usize][..count],
+        }
+    }
+
     fn count_fanouts(&mut self) {
         let mut fanouts = vec![0u32; self.nodes.len()];
         for (index, node) in self.nodes.iter().enumerate() {
@@ -210,10 +225,11 @@ impl Mapper<'_> {
             let mut kept = 0;
             let limit = if quickest { u16::MAX } else { self.required[index] };
             let (own_a, own_b) = (Cut::of(a as u32), Cut::of(b as u32));
-            for i in 0..=self.count[a] as usize {
-                let one = if i == 0 { &own_a } else { &self.cuts[a][i - 1] };
-                for j in 0..=self.count[b] as usize {
-                    let two = if j == 0 { &own_b } else { &self.cuts[b][j - 1] };
+            let (cuts_a, cuts_b) = (self.cuts_of(a), self.cuts_of(b));
+            for i in 0..=cuts_a.len() {
+                let one = if i == 0 { &own_a } else { &cuts_a[i - 1] };
+                for j in 0..=cuts_b.len() {
+                    let two = if j == 0 { &own_b } else { &cuts_b[j - 1] };
                     let Some(mut cut) = one.joined(two) else { continue };
                     let mut flow = 1.0;
                     let mut depth = 0;
@@ -252,7 +268,7 @@ impl Mapper<'_> {
             if kept == 0 {
                 continue; // the cuts found before stay
             }
-            self.cuts[index] = best;
+            self.cuts[self.place[index] as usize] = best;
             self.count[index] = kept as u8;
             self.depth[index] = best[0].depth;
             self.flow[index] = best[0].flow / self.share[index];
@@ -273,7 +289,7 @@ impl Mapper<'_> {
             if self.readers[index] == 0 || self.count[index] == 0 {
                 continue;
             }
-            let cut = self.cuts[index][0];
+            let cut = self.cuts_of(index)[0];
             let required = self.required[index].saturating_sub(1);
             for leaf in cut.leaves() {
                 let leaf = *leaf as usize;
@@ -286,73 +302,11 @@ impl Mapper<'_> {
         }
     }
 
-    /// Of the cuts of each chosen node takes that which adds the fewest tables.
-    fn recover(&mut self) {
-        for index in 0..self.nodes.len() {
-            if self.count[index] == 0 {
-                continue;
-            }
-            let used = self.readers[index] > 0;
-            if used {
-                let cut = self.cuts[index][0];
-                self.leave(&cut);
-            }
-            let mut best = (0, u32::MAX, u16::MAX);
-            for place in 0..self.count[index] as usize {
-                let cut = self.cuts[index][place];
-                let depth = 1 + cut.leaves().iter().map(|leaf| self.depth[*leaf as usize]).max().unwrap_or(0);
-                if depth > self.required[index] && place > 0 {
-                    continue;
-                }
-                let area = self.enter(&cut);
-                self.leave(&cut);
-                if (area, depth) < (best.1, best.2)
-                    || (depth <= self.required[index] && best.2 > self.required[index])
-                {
-                    best = (place, area, depth);
-                }
-            }
-            self.cuts[index].swap(0, best.0);
-            self.depth[index] = best.2;
-            if used {
-                let cut = self.cuts[index][0];
-                self.enter(&cut);
-            }
-        }
-    }
-
-    /// Counts the cut's readers in; how many tables that adds.
-    fn enter(&mut self, cut: &Cut) -> u32 {
-        let mut area = 1;
-        for leaf in cut.leaves() {
-            let leaf = *leaf as usize;
-            self.readers[leaf] += 1;
-            if self.readers[leaf] == 1 && self.count[leaf] > 0 {
-                let below = self.cuts[leaf][0];
-                area += self.enter(&below);
-            }
-        }
-        area
-    }
-
-    /// Counts them out.
-    fn leave(&mut self, cut: &Cut) {
-        for leaf in cut.leaves() {
-            let leaf = *leaf as usize;
-            self.readers[leaf] -= 1;
-            if self.readers[leaf] == 0 && self.count[leaf] > 0 {
-                let below = self.cuts[leaf][0];
-                self.leave(&below);
-            }
-        }
-    }
-
     fn finish(mut self) -> Cover {
         let tables: Vec<Option<Table>> = (0..self.nodes.len())
             .map(|index| {
-                let cut = self.cuts[index][0];
-                (self.readers[index] > 0 && self.count[index] > 0)
-                    .then_some(Table { leaves: cut.leaves, len: cut.len })
+                let cut = self.cuts_of(index).first().filter(|_| self.readers[index] > 0)?;
+                Some(Table { leaves: cut.leaves, len: cut.len })
             })
             .collect();
         // What is wanted inverted: a table can give that, but not both, and what is no table has to be inverted by one.

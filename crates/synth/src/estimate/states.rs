@@ -57,7 +57,8 @@ fn choice_of_states(
 
 /// The register has two kinds of readers only: comparisons of the whole register with constants, and its own choices.
 fn is_only_compared(words: &Words, own: &[Bit], tree: &[Bit]) -> bool {
-    let reads = |bits: &[Bit]| bits.iter().any(|bit| own.contains(bit));
+    let (first, width) = (own[0], own.len() as Bit);
+    let reads = |bits: &[Bit]| bits.iter().any(|bit| bit.wrapping_sub(first) < width);
     let cell = |cell: &Cell| {
         let [a, b] = match &cell.operands[..] {
             [a, b] => [words.at(a), words.at(b)],
