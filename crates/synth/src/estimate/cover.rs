@@ -4,7 +4,7 @@ use super::build::Built;
 use super::graph::{Lit, Node};
 
 /// Cuts kept of a node.
-const KEPT: usize = 4;
+const KEPT: usize = 5;
 const INPUTS: usize = 4;
 
 /// A way to compute a node: a table of these.
