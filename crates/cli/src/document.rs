@@ -7,7 +7,8 @@ use serde::Serialize;
 /// new.
 fn version(what: &str) -> [u32; 2] {
     match what {
-        "report" | "sweep" | "energy" | "features" => [1, 1],
+        "report" | "energy" | "estimate" => [1, 1],
+        "sweep" | "features" => [1, 2],
         _ => [1, 0],
     }
 }

@@ -54,7 +54,7 @@ pub const COMMANDS: [&[&str]; 27] = [
         "--machines",
         concat!(env!("CARGO_MANIFEST_DIR"), "/../synth/data/machines.txt"),
         "--data",
-        concat!(env!("CARGO_MANIFEST_DIR"), "/../synth/data/measured.csv"),
+        concat!(env!("CARGO_MANIFEST_DIR"), "/../synth/data/ice40.csv"),
         "--fit",
         "fit.json",
     ],

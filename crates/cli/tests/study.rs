@@ -341,21 +341,25 @@ fn features_on_meshes() -> String {
     table(header, body.collect::<Vec<_>>())
 }
 
-/// The estimates that docs/study/run keeps.
-fn kept_fits() -> Vec<Value> {
-    let text = std::fs::read_to_string(docs().join("study/fits.json")).unwrap();
+/// The estimates that docs/study/run keeps: of iCE40, or of ECP5.
+fn kept_fits(file: &str) -> Vec<Value> {
+    let text = std::fs::read_to_string(docs().join("study").join(file)).unwrap();
     serde_json::from_str::<Value>(&text).unwrap()["machines"].as_array().unwrap().clone()
 }
 
 /// Which machine fits which device, with its frame memories.
 fn fits() -> String {
-    let devices = ["UP5K", "HX8K"];
-    let header = ["machine", "cells", "RAM"].map(str::to_owned).into_iter();
-    let header = header.chain(devices.map(|device| format!("{device}: fits, memories that do")));
-    let body = kept_fits().into_iter().map(|machine| {
-        let cells = |part: &str| told(machine.pointer(&format!("/est_cells/{part}")), 1.0, 0);
-        let of = |device: usize| {
-            let fits = &machine["fits"][device];
+    let fits = |device: &str| format!("{device}: fits, memories that do");
+    let [up5k, hx8k, ecp5] = ["UP5K", "HX8K", "ECP5-25"].map(fits);
+    let header = ["machine", "cells", "RAM", &up5k, &hx8k, "cells of ECP5", &ecp5].map(str::to_owned);
+    let both = kept_fits("fits.json").into_iter().zip(kept_fits("fits_ecp5.json"));
+    let body = both.map(|(machine, on_ecp5)| {
+        assert_eq!(machine["name"], on_ecp5["name"]);
+        let cells = |machine: &Value| {
+            let part = |part: &str| told(machine.pointer(&format!("/est_cells/{part}")), 1.0, 0);
+            format!("{} ± {}", part("value"), part("error"))
+        };
+        let of = |fits: &Value| {
             let word = fits["text"].as_str().unwrap().split(':').next().unwrap().to_owned();
             let held = |memory: &Value| {
                 let name = memory["name"].as_str().unwrap();
@@ -367,10 +371,14 @@ fn fits() -> String {
         };
         let figures = [
             format!("`{}`", machine["name"].as_str().unwrap()),
-            format!("{} ± {}", cells("value"), cells("error")),
+            cells(&machine),
             told(machine.get("est_ram"), 1.0, 0),
+            of(&machine["fits"][0]),
+            of(&machine["fits"][1]),
+            cells(&on_ecp5),
+            of(&on_ecp5["fits"][0]),
         ];
-        figures.into_iter().chain([0, 1].map(of)).collect()
+        figures.to_vec()
     });
     table(header, body.collect::<Vec<_>>())
 }
@@ -435,15 +443,20 @@ fn features_are_those_of_the_program() {
             }
         }
     }
-    let kept = kept_fits();
-    let names: Vec<&str> = kept.iter().map(|machine| machine["name"].as_str().unwrap()).collect();
-    let devices = ["--fits", "ice40-up5k", "--fits", "ice40-hx8k", "--json"];
-    let output = edgewalk(folder.path(), &[&["estimate"][..], &names, &devices].concat()).output().unwrap();
-    let today: Value = serde_json::from_slice(&output.stdout).unwrap();
-    for (kept, today) in kept.iter().zip(today["machines"].as_array().unwrap()) {
-        for (figure, value) in today.as_object().unwrap().iter().filter(|of| of.0 != "milliseconds") {
-            assert_eq!(kept[figure], *value, "{} {figure}: docs/study/run --features", kept["name"]);
-            checked += 1;
+    for (file, devices) in [
+        ("fits.json", &["--fits", "ice40-up5k", "--fits", "ice40-hx8k", "--json"][..]),
+        ("fits_ecp5.json", &["--family", "ecp5", "--fits", "ecp5-25", "--json"]),
+    ] {
+        let kept = kept_fits(file);
+        let names: Vec<&str> = kept.iter().map(|machine| machine["name"].as_str().unwrap()).collect();
+        let output =
+            edgewalk(folder.path(), &[&["estimate"][..], &names, devices].concat()).output().unwrap();
+        let today: Value = serde_json::from_slice(&output.stdout).unwrap();
+        for (kept, today) in kept.iter().zip(today["machines"].as_array().unwrap()) {
+            for (figure, value) in today.as_object().unwrap().iter().filter(|of| of.0 != "milliseconds") {
+                assert_eq!(kept[figure], *value, "{} {figure}: docs/study/run --features", kept["name"]);
+                checked += 1;
+            }
         }
     }
     println!("checked {checked} figures");

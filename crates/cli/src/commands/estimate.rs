@@ -1,25 +1,30 @@
-//! `edgewalk estimate`: what machines cost on an iCE40, without tools.
+//! `edgewalk estimate`: what machines cost on an FPGA, without tools.
 //!
 //! ```text
 //!  machine ─> netlist ─> structure ─> factors and delays of the fit ─> table, JSON
 //! ```
+
+mod gates;
+
+pub use gates::FAMILY;
 
 use crate::Talk;
 use crate::document::document;
 use crate::machine_args::MachineArgs;
 use crate::verdict::Verdict;
 use anyhow::{Result, anyhow};
-use edgewalk_machine::Plan;
-use edgewalk_synth::estimate::{Estimate, Figure, Fit, Fits, Kept, fits};
+use edgewalk_machine::{Plan, Unknown};
+use edgewalk_synth::estimate::{Estimate, Figure, Fit, Fits, Fpga, Kept, fits};
 use edgewalk_synth::{Part, Target, memories};
 use serde::Serialize;
 use std::fmt::Write as _;
 use std::time::Instant;
 
-/// Estimate cells and clock of machines on an iCE40 from their netlists, in milliseconds, without tools.
+/// Estimate cells and clock of machines on an iCE40 or ECP5, or area in standard cells, from
+/// their netlists, in milliseconds, without tools.
 ///
-/// Flip-flops, carry cells and memory blocks are those that Yosys gives for the machine. Look-up tables, packed cells
-/// and the clock (HX8K) come from a model that was fitted to synthesised machines; nine in ten of the machines that
+/// Flip-flops, carry cells, memories and multipliers are those that Yosys gives for the machine. Look-up tables, packed
+/// cells and the clock (HX8K, ECP5-25) come from a model that was fitted to synthesised machines; nine in ten of the machines that
 /// were held out lie within the error that stands behind each figure; of a part, nine in ten of the parts that were
 /// measured. `edgewalk calibrate` makes the fit anew.
 #[derive(clap::Args)]
@@ -28,6 +33,8 @@ use std::time::Instant;
   edgewalk estimate default small ecp5,setup.lanes=2
   edgewalk estimate --unit engine --set interpolator.adders=1
   edgewalk estimate small up5k --fits ice40-up5k
+  edgewalk estimate small default --family ecp5 --fits ecp5-25
+  edgewalk estimate default --family osu018
   edgewalk estimate default,shade.kind=fast-phong --json")]
 pub struct Args {
     /// Machines: `FILE|PRESET[,key=value...]`; --set holds for all. The machine of --machine if none is named
@@ -36,7 +43,10 @@ pub struct Args {
     /// machine, engine (all units but setup), or the name of a unit
     #[arg(long, value_name = "UNIT", default_value = "machine")]
     unit: String,
-    /// Say whether each fits a device: ice40-hx8k, ice40-up5k (repeatable)
+    /// Family of the device: ice40, ecp5; osu018 for standard cells of 0.18 um
+    #[arg(long, value_name = "FAMILY", default_value = "ice40")]
+    family: String,
+    /// Say whether each fits a device of the family: ice40-hx8k, ice40-up5k, ecp5-25 (repeatable)
     #[arg(long, value_name = "DEVICE")]
     fits: Vec<String>,
 }
@@ -45,6 +55,9 @@ pub struct Args {
 #[derive(Serialize)]
 struct Report {
     unit: String,
+    family: &'static str,
+    /// The device whose clock is estimated.
+    device: &'static str,
     /// What the errors are those of.
     errors: edgewalk_synth::estimate::Errors,
     machines: Vec<Row>,
@@ -75,8 +88,19 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
             args.machines.iter().map(named).collect::<Result<_>>()?
         }
     };
-    let fit = Fit::known();
-    let kept = Kept::new(fit.delays);
+    if args.family == FAMILY && devices.is_empty() {
+        return gates::run(&args.unit, &machines, talk);
+    }
+    let family = family(&args.family)?;
+    if let Some(other) = devices.iter().find(|device| device.family != family) {
+        let [name, own] = [other.name, other.family.name()];
+        return Err(anyhow!(
+            "--fits {name}: found a device of the family {own}, the estimate is of {}; use --family {own}",
+            family.name()
+        ));
+    }
+    let fit = Fit::known(family);
+    let kept = Kept::new(fit.delays, family);
     let mut rows = Vec::new();
     for (name, plan) in &machines {
         let part = Part::named(&args.unit, plan).map_err(|error| anyhow!("--unit {}: {error}", args.unit))?;
@@ -96,20 +120,30 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
             milliseconds,
         });
     }
-    let report = Report { unit: args.unit.clone(), errors: fit.errors, machines: rows };
+    let report = Report {
+        unit: args.unit.clone(),
+        family: family.name(),
+        device: family.device(),
+        errors: fit.errors,
+        machines: rows,
+    };
     talk.say(|| document("estimate", &report), || report.text())?;
     Ok(Verdict::Pass)
 }
 
+/// A family of FPGAs.
+pub fn family(name: &str) -> Result<Fpga> {
+    let names = Fpga::ALL.map(Fpga::name).into_iter().chain([FAMILY]);
+    let found = Fpga::ALL.into_iter().find(|family| family.name() == name);
+    found.ok_or_else(|| match name == FAMILY {
+        true => anyhow!("--fits: standard cells have no device; leave --fits or --family {name} out"),
+        false => anyhow!("--family {name}: {}", Unknown::new("family", name, names)),
+    })
+}
+
 /// A device that estimates can be held against.
 pub fn device(name: &str) -> Result<Target> {
-    let target = Target::named(name).map_err(|error| anyhow!("--fits {name}: {error}"))?;
-    match target.logic_cells {
-        Some(_) => Ok(target),
-        None => Err(anyhow!(
-            "--fits {name}: an estimate knows devices of the iCE40 family only: ice40-hx8k, ice40-up5k; use `edgewalk synth --target {name}`"
-        )),
-    }
+    Target::named(name).map_err(|error| anyhow!("--fits {name}: {error}"))
 }
 
 impl Report {
@@ -117,19 +151,28 @@ impl Report {
         let width =
             self.machines.iter().map(|row| row.name.chars().count()).max().unwrap_or(0).max("machine".len());
         let mut text = format!(
-            "{:width$}  {:>14}  {:>6}  {:>6}  {:>4}  {:>14}  {:>14}  {:>5}\n",
-            "machine", "LUT4", "carry", "FF", "RAM", "cells", "MHz on HX8K", "ms"
+            "{:width$}  {:>14}  {:>6}  {:>6}  {:>4}  {:>4}  {:>14}  {:>14}  {:>5}\n",
+            "machine",
+            "LUT4",
+            "carry",
+            "FF",
+            "RAM",
+            "DSP",
+            "cells",
+            format!("MHz on {}", self.device),
+            "ms"
         );
         for row in &self.machines {
             let of = &row.estimate;
             let _ = writeln!(
                 text,
-                "{:width$}  {:>14}  {:>6}  {:>6}  {:>4}  {:>14}  {:>14}  {:>5.1}",
+                "{:width$}  {:>14}  {:>6}  {:>6}  {:>4}  {:>4}  {:>14}  {:>14}  {:>5.1}",
                 row.name,
                 whole(of.est_lut4),
                 of.est_carry,
                 of.est_ff,
                 of.est_ram,
+                of.est_dsp,
                 whole(of.est_cells),
                 format!("{:.1} ± {:.1}", of.est_mhz.value, of.est_mhz.error),
                 row.milliseconds
@@ -143,7 +186,7 @@ impl Report {
         let errors = &self.errors;
         let _ = writeln!(
             text,
-            "carry, FF and RAM as Yosys counts them; LUT4, cells and MHz by a model: of {} machines held out ({} of them \
+            "carry, FF, RAM and DSP as Yosys counts them; LUT4, cells and MHz by a model: of {} machines held out ({} of them \
              placed) nine in ten lie within ±",
             errors.machines, errors.placed
         );

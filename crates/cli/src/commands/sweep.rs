@@ -120,7 +120,7 @@ struct What {
     /// clock are estimated without --synth; with it, only machines that the estimate's error leaves open are built
     #[arg(long, value_name = "LIMIT")]
     require: Vec<String>,
-    /// Device that a machine must fit by its estimate: ice40-hx8k, ice40-up5k (repeatable)
+    /// Device that a machine must fit by its estimate: ice40-hx8k, ice40-up5k, ecp5-25 (repeatable)
     #[arg(long, value_name = "DEVICE")]
     fits: Vec<String>,
     /// Estimate cells and clock of every machine (see `edgewalk estimate`)

@@ -1,6 +1,7 @@
-//! Sums, differences, comparisons and products, as Yosys' `wreduce`, `alumacc`, `maccmap` and `ice40_opt` map them:
+//! Sums, differences and products, as Yosys' `wreduce`, `alumacc`, `maccmap` and `ice40_opt` map them:
 //! operands are cut to the bits that tell something, sums of sums become one sum, and two operands a carry chain.
 
+use super::family::Family;
 use super::graph::{CarryBit, FALSE, Graph, Lit, Node, QuickMap, TRUE};
 
 /// A summand: a word, or the product of two.
@@ -15,28 +16,28 @@ pub(super) struct Term {
 
 /// A carry chain: the sum, and the carry out of each bit.
 #[derive(Clone, Debug)]
-struct Chain {
-    signed: bool,
-    sum: Vec<Lit>,
-    carry: Vec<Lit>,
+pub(super) struct Chain {
+    pub signed: bool,
+    pub sum: Vec<Lit>,
+    pub carry: Vec<Lit>,
 }
 
 /// Differences by their operands, to be shared by comparisons of the same.
 #[derive(Default)]
-pub(super) struct Differences(QuickMap<(Vec<Lit>, Vec<Lit>), Chain>);
+pub(super) struct Differences(pub QuickMap<(Vec<Lit>, Vec<Lit>), Chain>);
 
-/// A relation that a carry chain decides.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Relation {
-    Less,
-    LessOrEqual,
-    Greater,
-    GreaterOrEqual,
-}
-
-fn extended(word: &[Lit], width: usize, signed: bool) -> Vec<Lit> {
+pub(super) fn extended(word: &[Lit], width: usize, signed: bool) -> Vec<Lit> {
     let fill = if signed { word.last().copied().unwrap_or(FALSE) } else { FALSE };
     (0..width).map(|bit| word.get(bit).copied().unwrap_or(fill)).collect()
+}
+
+/// How many of the lowest bits need no chain, as one of the two words is 0 there (`opt_expr -fine`). A chain of an iCE40
+/// leaves such bits out by itself.
+fn low_zeros(a: &[Lit], b: &[Lit], subtract: bool, carry: Lit) -> usize {
+    if carry != Lit::from(subtract) {
+        return 0;
+    }
+    a.iter().zip(b).take_while(|(a, b)| **b == FALSE || (!subtract && **a == FALSE)).count()
 }
 
 /// The operands of a sum or difference of `width` bits without the zeros on top, and how many bits are computed.
@@ -48,22 +49,6 @@ pub(super) fn reduced(a: &[Lit], b: &[Lit], width: usize) -> (Vec<Lit>, Vec<Lit>
     let (a, b) = (cut(a), cut(b));
     let computed = width.min(a.len().max(b.len()) + 1);
     (a, b, computed)
-}
-
-/// An operand of a comparison, cut to the bits that tell something.
-#[derive(Clone, Debug)]
-pub(super) struct Operand {
-    pub word: Vec<Lit>,
-    /// Parts of words that it is put together from.
-    pub pieces: usize,
-}
-
-impl Operand {
-    /// Yosys' order of two words: the shorter comes first, then that of fewer pieces. Of words alike in both, the order
-    /// follows from numbers that Yosys gives to names, and takes back when a name is gone; it is not known here.
-    fn comes_before(&self, other: &Operand) -> bool {
-        (self.word.len(), self.pieces) < (other.word.len(), other.pieces)
-    }
 }
 
 /// Whether a sum of these may not fit `width` bits, or be of another sign.
@@ -80,7 +65,7 @@ pub(super) fn may_overflow(terms: &[Term], width: usize, signed: bool) -> bool {
 }
 
 impl Graph {
-    /// a + b + carry on a chain; up to two bits are look-up tables.
+    /// a + b + carry on a chain of an iCE40. A step with two constants needs no cell.
     fn chain(&mut self, a: &[Lit], b: &[Lit], carry: Lit) -> (Vec<Lit>, Vec<Lit>) {
         let (mut sums, mut carries) = (Vec::new(), Vec::new());
         let mut carry = carry;
@@ -103,12 +88,36 @@ impl Graph {
                 }
                 None => {
                     let place = self.carries.len() as u32;
-                    self.carries.push(CarryBit { inputs });
+                    self.carries.push(CarryBit { inputs, cell: place });
                     sums.push(self.node(Node::Sum(place)));
                     carry = self.node(Node::Carry(place));
                 }
             }
             carries.push(carry);
+        }
+        (sums, carries)
+    }
+
+    /// a + b + carry on a chain of an ECP5, a cell for two bits. The carry between the two is no output of the cell. Who
+    /// reads it gets it from look-up tables.
+    fn chain_of_pairs(&mut self, a: &[Lit], b: &[Lit], carry: Lit) -> (Vec<Lit>, Vec<Lit>) {
+        let (mut sums, mut carries) = (Vec::new(), Vec::new());
+        let (mut carry, mut cell) = (carry, 0);
+        for (at, (a, b)) in a.iter().zip(b).enumerate() {
+            let place = self.carries.len() as u32;
+            let upper = at % 2 == 1;
+            cell = if upper { cell } else { place };
+            self.carries.push(CarryBit { inputs: [*a, *b, carry], cell });
+            sums.push(self.node(Node::Sum(place)));
+            let out = self.node(Node::Carry(place));
+            carries.push(if upper {
+                out
+            } else {
+                let (both, either) = (self.and(*a, *b), self.or(*a, *b));
+                let through = self.and(carry, either);
+                self.or(both, through)
+            });
+            carry = out;
         }
         (sums, carries)
     }
@@ -126,7 +135,7 @@ impl Graph {
     }
 
     /// Sum and carries of `width` bits: an `$alu` of Yosys.
-    fn alu(
+    pub(super) fn alu(
         &mut self,
         a: &[Lit],
         b: &[Lit],
@@ -135,9 +144,21 @@ impl Graph {
         carry: Lit,
         width: usize,
     ) -> (Vec<Lit>, Vec<Lit>) {
+        let low = if self.family == Family::Ecp5 { low_zeros(a, b, invert, carry).min(width) } else { 0 };
         let a = extended(a, width, signed);
         let b: Vec<Lit> = extended(b, width, signed).iter().map(|lit| lit ^ Lit::from(invert)).collect();
-        if width <= 2 { self.ripple(&a, &b, carry) } else { self.chain(&a, &b, carry) }
+        // The zeros give a bit of the other word, and the carry goes on as it is.
+        let handed = (0..low).map(|at| if b[at] == carry { a[at] } else { b[at] });
+        let (mut sums, mut carries): (Vec<Lit>, Vec<Lit>) = (handed.collect(), vec![carry; low]);
+        let (a, b) = (&a[low..], &b[low..]);
+        let (sum, out) = match self.family {
+            family if a.len() <= family.short_sum() => self.ripple(a, b, carry),
+            Family::Ice40 => self.chain(a, b, carry),
+            Family::Ecp5 | Family::Gates => self.chain_of_pairs(a, b, carry),
+        };
+        sums.extend(sum);
+        carries.extend(out);
+        (sums, carries)
     }
 
     /// A sum of terms, `width` bits.
@@ -227,115 +248,9 @@ impl Graph {
         }
     }
 
-    /// A comparison.
-    pub fn compare(
-        &mut self,
-        relation: Relation,
-        [a, b]: [Operand; 2],
-        signed: bool,
-        differences: &mut Differences,
-    ) -> Lit {
-        if let Some(lit) = self.simple_comparison(relation, &a.word, &b.word, signed) {
-            return lit;
-        }
-        let (mut less, equal) = match relation {
-            Relation::Less => (true, false),
-            Relation::LessOrEqual => (true, true),
-            Relation::Greater => (false, false),
-            Relation::GreaterOrEqual => (false, true),
-        };
-        let known = a.comes_before(&b) || b.comes_before(&a);
-        let (mut a, mut b) = match b.comes_before(&a) {
-            true => {
-                less = !less;
-                (b.word, a.word)
-            }
-            false => (a.word, b.word),
-        };
-        let width = a.len().max(b.len());
-        let shared = |chain: &&Chain| chain.signed == signed;
-        let mut found = differences.0.get(&(a.clone(), b.clone())).filter(shared).cloned();
-        if found.is_none() && !known {
-            found = differences.0.get(&(b.clone(), a.clone())).filter(shared).cloned();
-            if found.is_some() {
-                less = !less;
-                std::mem::swap(&mut a, &mut b);
-            }
-        }
-        let chain = found.unwrap_or_else(|| {
-            let (sum, carry) = self.alu(&a, &b, signed, true, TRUE, width);
-            let chain = Chain { signed, sum, carry };
-            differences.0.insert((a.clone(), b.clone()), chain.clone());
-            chain
-        });
-        let top = chain.sum.len() - 1;
-        let lower = if signed {
-            let before = if top == 0 { TRUE } else { chain.carry[top - 1] };
-            let overflow = self.xor(chain.carry[top], before);
-            self.xor(overflow, chain.sum[top])
-        } else {
-            chain.carry[top] ^ 1
-        };
-        if less && !equal {
-            return lower;
-        }
-        let same = self.equal(&extended(&a, width, signed), &extended(&b, width, signed));
-        let first = if less { lower } else { self.or(lower, same) ^ 1 };
-        if equal { self.or(first, same) } else { first }
-    }
-
-    /// Comparisons with constants that Yosys does without a chain.
-    fn simple_comparison(&mut self, relation: Relation, a: &[Lit], b: &[Lit], signed: bool) -> Option<Lit> {
-        let fixed = |word: &[Lit]| word.iter().all(|lit| *lit <= TRUE);
-        let (word, constant, relation) = match (fixed(a), fixed(b)) {
-            (_, true) => (a, b, relation),
-            (true, false) => (b, a, relation.turned()),
-            _ => return None,
-        };
-        if word.len().max(constant.len()) > 4 && !fixed(word) {
-            return None;
-        }
-        // A look-up table, or known: by the bits from the top.
-        let width = word.len().max(constant.len());
-        let (mut word, mut constant) = (extended(word, width, signed), extended(constant, width, signed));
-        if signed {
-            word[width - 1] ^= 1;
-            constant[width - 1] ^= 1;
-        }
-        let (mut below, mut same) = (FALSE, TRUE);
-        for (bit, limit) in word.iter().zip(&constant).rev() {
-            if *limit == TRUE {
-                let here = self.and(same, bit ^ 1);
-                below = self.or(below, here);
-                same = self.and(same, *bit);
-            } else {
-                same = self.and(same, bit ^ 1);
-            }
-        }
-        let not_above = self.or(below, same);
-        Some(match relation {
-            Relation::Less => below,
-            Relation::LessOrEqual => not_above,
-            Relation::Greater => not_above ^ 1,
-            Relation::GreaterOrEqual => below ^ 1,
-        })
-    }
-
     pub fn equal(&mut self, a: &[Lit], b: &[Lit]) -> Lit {
         let same: Vec<Lit> = a.iter().zip(b).map(|(a, b)| self.xor(*a, *b) ^ 1).collect();
         self.all(&same)
-    }
-}
-
-impl Relation {
-    /// The same with the operands in the other order.
-    fn turned(self) -> Relation {
-        match self {
-            Relation::Less => Relation::Greater,
-            Relation::LessOrEqual => Relation::GreaterOrEqual,
-            Relation::Greater => Relation::Less,
-            Relation::GreaterOrEqual => Relation::LessOrEqual,
-        }
     }
 }
 

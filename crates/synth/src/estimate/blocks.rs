@@ -1,40 +1,85 @@
-//! Memories in blocks of 4 kbit, or in flip-flops where these cost less (`memory_libmap`).
+//! Memories in memory blocks, in look-up tables or in flip-flops, whichever costs least (`memory_libmap`).
 
-use super::builder::{BlockMemory, Builder, Guard};
+use super::builder::{BlockMemory, Builder, Guard, Kind};
+use super::family::Family;
 use super::graph::{FALSE, Lit, Node, TRUE};
 use super::words::{Bit, Memory, ONE};
 use std::ops::Range;
 
-/// Blocks of 4 kbit: words and bits that one can be set to.
-const SHAPES: [(usize, usize); 4] = [(256, 16), (512, 8), (1024, 4), (2048, 2)];
-/// A block costs as much as so many bits in flip-flops (`brams.txt` of Yosys).
-const BLOCK_COST: usize = 64;
+/// Memory blocks of a family: words and bits that one can be set to, and the bits in flip-flops that cost as much
+/// (`brams.txt` of Yosys).
+fn blocks(family: Family) -> (&'static [(usize, usize)], usize) {
+    match family {
+        Family::Ice40 => (&[(256, 16), (512, 8), (1024, 4), (2048, 2)], 64),
+        Family::Gates => (&[], usize::MAX),
+        Family::Ecp5 => (&[(512, 36), (1024, 18), (2048, 9), (4096, 4), (8192, 2), (16_384, 1)], 128),
+    }
+}
+
+/// Words and bits of a memory in look-up tables, and the bits in flip-flops that cost as much (`lutrams.txt`).
+pub(super) const DISTRIBUTED: (usize, usize, usize) = (16, 4, 4);
+
+/// What a memory costs in flip-flops, in bits of them.
+fn in_flip_flops(memory: &Memory, held: usize) -> usize {
+    memory.words * held / if memory.rom.is_some() { 16 } else { 1 }
+}
+
+/// The same in look-up tables; none where the family has no such memories.
+fn in_tables(family: Family, memory: &Memory, held: usize) -> Option<usize> {
+    let (deep, wide, cost) = DISTRIBUTED;
+    (family == Family::Ecp5 && memory.writes.len() <= 1)
+        .then(|| cost * memory.words.div_ceil(deep) * held.div_ceil(wide) * memory.reads.len())
+}
 
 impl Builder<'_> {
+    /// The bits of a memory's words that take room. A bit takes none if no port reads it, or if only one constant is
+    /// written to it.
+    pub fn bits_held(&self, memory: &Memory) -> Vec<usize> {
+        let read = |bit: &usize| {
+            let fixed = |(_, _, data): &(Bit, Range<usize>, Range<usize>)| self.words.at(data)[*bit] <= ONE;
+            let constant = !memory.writes.is_empty() && memory.writes.iter().all(fixed);
+            !constant && memory.reads.iter().any(|(_, _, first)| self.words.users[*first as usize + bit] > 0)
+        };
+        (0..memory.width).filter(read).collect()
+    }
+
+    /// Whether look-up tables hold a memory that no blocks hold.
+    pub fn is_distributed(&self, memory: &Memory) -> bool {
+        let held = self.bits_held(memory).len();
+        in_tables(self.words.family, memory, held).is_some_and(|cost| cost <= in_flip_flops(memory, held))
+    }
+
     /// Blocks for a memory, none where flip-flops are cheaper; and the nodes of its outputs.
     pub fn outputs(&mut self, place: usize) -> Option<usize> {
         let memory = &self.words.memories[place];
         self.graph.unit = memory.unit;
-        // A bit takes no room if no port reads it, or if only one constant is written to it.
-        let read = |bit: usize| {
-            let fixed = |(_, _, data): &(Bit, Range<usize>, Range<usize>)| self.words.at(data)[bit] <= ONE;
-            let constant = !memory.writes.is_empty() && memory.writes.iter().all(fixed);
-            !constant && memory.reads.iter().any(|(_, _, first)| self.words.users[*first as usize + bit] > 0)
-        };
-        let held: Vec<usize> = (0..memory.width).filter(|bit| read(*bit)).collect();
+        let held = self.bits_held(memory);
+        let (shapes, cost) = blocks(self.words.family);
         let needed = |(deep, wide): (usize, usize)| memory.words.div_ceil(deep) * held.len().div_ceil(wide);
-        let (deep, wide) = SHAPES.into_iter().min_by_key(|shape| needed(*shape)).unwrap_or((1, 1));
+        let (deep, wide) = shapes.iter().copied().min_by_key(|shape| needed(*shape)).unwrap_or((1, 1));
         let blocks = needed((deep, wide)) * memory.reads.len();
-        let bits = memory.words * held.len();
-        let bits = if memory.rom.is_some() { bits / 16 } else { bits };
-        let in_blocks = blocks * BLOCK_COST < bits && memory.writes.len() <= 1;
+        // Of equal costs blocks come before look-up tables, and flip-flops before blocks.
+        let in_blocks = !shapes.is_empty()
+            && memory.writes.len() <= 1
+            && blocks * cost < in_flip_flops(memory, held.len())
+            && in_tables(self.words.family, memory, held.len()).is_none_or(|tables| blocks * cost <= tables);
         let first_block = self.memories.len();
         if in_blocks {
             for port in 0..memory.reads.len() {
                 for bits in held.chunks(wide) {
                     let (blocks, bits) = (memory.words.div_ceil(deep) as u32, bits.to_vec());
                     let (inputs, reads, writes) = (Vec::new(), Vec::new(), Vec::new());
-                    self.memories.push(BlockMemory { place, port, bits, blocks, inputs, reads, writes });
+                    let kind = Kind::Block;
+                    self.memories.push(BlockMemory {
+                        kind,
+                        place,
+                        port,
+                        bits,
+                        blocks,
+                        inputs,
+                        reads,
+                        writes,
+                    });
                 }
             }
         }
@@ -99,7 +144,10 @@ impl Builder<'_> {
             }
             writes.push((enable, address, data));
         }
-        for block in self.memories[first..].iter_mut().take_while(|block| block.place == place) {
+        for block in self.memories[first..]
+            .iter_mut()
+            .take_while(|block| (block.kind, block.place) == (Kind::Block, place))
+        {
             let read = &reads[block.port];
             block.inputs.push(read.0);
             block.inputs.extend(&read.1);
@@ -155,18 +203,9 @@ impl Builder<'_> {
                 if self.known.contains_key(&own) {
                     continue;
                 }
-                let mut row: Vec<Lit> = words.iter().map(|word| word[bit]).collect();
-                for select in &address {
-                    row = row
-                        .chunks(2)
-                        .map(|pair| match pair {
-                            [low, high] => self.graph.mux(*select, *high, *low),
-                            _ => pair[0],
-                        })
-                        .collect();
-                }
+                let word = self.chosen(words.iter().map(|word| word[bit]).collect(), &address);
                 let q = self.lits[own as usize];
-                self.drive(q, row[0], enable, None, true);
+                self.drive(q, word, enable, None, true);
             }
         }
     }

@@ -1,7 +1,8 @@
 //! From cells to logic: flip-flops, memories, carry chains and what lies between, round after round until no flip-flop is
 //! known to be constant or a twin.
 
-use super::builder::{BlockMemory, Builder, FlipFlop, Known, Known1, UNKNOWN};
+use super::builder::{BlockMemory, Builder, FlipFlop, Kind, Known, Known1, UNKNOWN};
+use super::family::Family;
 use super::graph::{FALSE, Graph, Lit, Node, QuickMap, TRUE};
 use super::sat::possible;
 use super::words::{Bit, ONE, UNREAD, Words, ZERO};
@@ -23,8 +24,9 @@ pub(super) fn build(words: &Words) -> Built {
     let mut known = Known::default();
     let mut guarded = vec![false; words.memories.len()];
     let (mut built, mut bits) = Builder::new(words, &known, &guarded).build();
-    for blocks in built.memories.chunk_by(|a, b| (a.place, a.port) == (b.place, b.port)) {
-        guarded[blocks[0].place] |= collides(&built.graph, &blocks[0]);
+    let in_blocks: Vec<&BlockMemory> = built.memories.iter().filter(|of| of.kind == Kind::Block).collect();
+    for blocks in in_blocks.chunk_by(|a, b| (a.place, a.port) == (b.place, b.port)) {
+        guarded[blocks[0].place] |= collides(&built.graph, blocks[0]);
     }
     if guarded.contains(&true) {
         (built, bits) = Builder::new(words, &known, &guarded).build();
@@ -57,7 +59,7 @@ fn finished(mut built: Built) -> Built {
             if let Some((reset, to, d)) = chosen_reset(&built.graph, flip_flop) {
                 (flip_flop.reset, flip_flop.to, flip_flop.d) = (reset, to, d);
             }
-        } else if flip_flop.enable != TRUE {
+        } else if flip_flop.enable != TRUE && built.graph.family == Family::Ice40 {
             flip_flop.enable = built.graph.or(flip_flop.enable, flip_flop.reset);
         }
     }
@@ -145,6 +147,7 @@ impl Builder<'_> {
             self.graph.unit = memory.unit;
             match place {
                 Some(place) => self.block_memory(memory, place),
+                None if self.is_distributed(memory) => self.distributed_memory(memory),
                 None => self.memory_of_flip_flops(memory),
             }
         }

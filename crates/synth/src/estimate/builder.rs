@@ -22,9 +22,21 @@ pub(super) struct FlipFlop {
     pub chosen: bool,
 }
 
-/// Blocks that hold the same bits of all words of a memory, for one of its read ports.
+/// What cells a memory or product is made of.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Kind {
+    /// Memory blocks.
+    Block,
+    /// Look-up tables of 16 words of 4 bits.
+    Distributed,
+    /// A multiplier.
+    Product,
+}
+
+/// Cells that hold the same bits of all words of a memory, for one of its read ports; or a multiplier.
 #[derive(Clone, Debug)]
 pub(super) struct BlockMemory {
+    pub kind: Kind,
     /// Which of the memories.
     pub place: usize,
     /// Which of its read ports.
@@ -91,7 +103,7 @@ pub(super) const UNKNOWN: Lit = Lit::MAX;
 
 impl<'w> Builder<'w> {
     pub fn new(words: &'w Words, known: &'w Known, guarded: &'w [bool]) -> Builder<'w> {
-        let mut graph = Graph::new(2 * words.bits);
+        let mut graph = Graph::new(2 * words.bits, words.family);
         let rst = graph.node(Node::Leaf);
         Builder {
             words,

@@ -103,7 +103,7 @@ impl<'k> Composed<'k> {
     }
 
     fn settle(&mut self) -> Vec<Settled> {
-        let joints = View { outside: true, ..View::default() };
+        let joints = View { outside: true, family: self.kept.family, ..View::default() };
         let joints = self.kept.viewed(&self.modules[0], &joints, &mut None);
         let mut wires = Vec::new();
         for (bit, gives) in &joints.ports.gives {
@@ -215,7 +215,7 @@ impl<'k> Composed<'k> {
             }
         };
         let readers = (0..self.gives[module].len()).map(readers).collect();
-        View { inputs, readers, outside: module == 0, inside: module > 0 }
+        View { inputs, readers, outside: module == 0, inside: module > 0, family: self.kept.family }
     }
 
     fn structure(&self, found: &[&Module]) -> Structure {
@@ -230,6 +230,8 @@ impl<'k> Composed<'k> {
             carry: sum(|module| module.carry),
             ff: sum(|module| module.ff),
             ram: sum(|module| module.ram),
+            distributed: sum(|module| module.distributed),
+            products: sum(|module| module.products),
             lone_ff: sum(|module| module.lone_ff),
             lone_carry: sum(|module| module.lone_carry),
             path: self.longest(found),

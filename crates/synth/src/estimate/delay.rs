@@ -15,14 +15,14 @@ pub struct Path {
     pub fanout: f64,
 }
 
-/// Delays of an iCE40 HX8K, ns.
+/// Delays of a device, ns.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Delays {
     /// From the clock to a register's output, and what a register wants before the clock.
     pub register: f64,
     /// A table with a wire to it.
     pub table: f64,
-    /// A step of a carry chain.
+    /// A bit of a carry chain.
     pub carry: f64,
     /// The way into a carry chain.
     pub entry: f64,

@@ -22,17 +22,15 @@ pub struct Fits {
 /// outside the machine the blocks that are left hold.
 #[must_use]
 pub fn fits(of: &Estimate, memories: Vec<Memory>, device: &Target) -> Fits {
-    let of_cells = device.logic_cells.unwrap_or(0) as f64;
+    let of_cells = device.logic_cells as f64;
     let blocks: u64 = device.blocks.iter().filter(|block| block.holds_own).map(|block| block.count).sum();
+    // On an ECP5 look-up tables hold the machine's own small memories, which are among the cells.
+    let own = if blocks > 0 { of.est_ram } else { 0 };
+    let of_blocks = if blocks > 0 { format!(", {own} blocks of {blocks}") } else { String::new() };
     let cells = of.est_cells;
-    let said = format!(
-        "{:.0} ± {:.0} cells of {of_cells}, {} blocks of {blocks}",
-        cells.value,
-        cells.error.ceil(),
-        of.est_ram
-    );
+    let said = format!("{:.0} ± {:.0} cells of {of_cells}{of_blocks}", cells.value, cells.error.ceil());
     let fits = match () {
-        () if of.est_ram > blocks || cells.value - cells.error > of_cells => Some(false),
+        () if own > blocks || cells.value - cells.error > of_cells => Some(false),
         () if cells.value + cells.error <= of_cells => Some(true),
         () => None,
     };
@@ -41,7 +39,7 @@ pub fn fits(of: &Estimate, memories: Vec<Memory>, device: &Target) -> Fits {
         Some(false) => "does not fit",
         None => "may fit",
     };
-    let memories = place(memories, device.blocks, of.est_ram);
+    let memories = place(memories, device.blocks, own);
     let held = memories.iter().map(|memory| match memory.held_by {
         Some(by) => format!("; {} in {} {}", memory.name, by.count, by.block),
         None => format!("; {} in none", memory.name),

@@ -1,6 +1,7 @@
 //! The factors and delays that make an estimate of a structure, and how they follow from what was measured.
 
 use super::delay::Delays;
+use super::fpga::Fpga;
 use super::measured::{Measured, Sample};
 use super::structure::Structure;
 use rayon::prelude::*;
@@ -17,20 +18,23 @@ pub struct Figure {
     pub error: f64,
 }
 
-/// What a machine is estimated to cost on an iCE40.
+/// What a machine is estimated to cost.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Estimate {
     /// Look-up tables.
     pub est_lut4: Figure,
-    /// Carry cells, as Yosys counts them.
+    /// Carry cells, as Yosys counts them: of a bit on an iCE40, of two on an ECP5.
     pub est_carry: u64,
     /// Flip-flops, as Yosys counts them.
     pub est_ff: u64,
-    /// Memory blocks of 4 kbit, as Yosys counts them.
+    /// Memories, as Yosys counts them: blocks, and on an ECP5 those of 16 words of 4 bits in look-up tables.
     pub est_ram: u64,
-    /// Logic cells after packing: a table, a flip-flop and a bit of carry each.
+    /// Multipliers, as Yosys counts them. On an iCE40 products are look-up tables.
+    pub est_dsp: u64,
+    /// Logic cells after packing: a table, a flip-flop and a bit of carry each on an iCE40; a table with what else its
+    /// place holds on an ECP5.
     pub est_cells: Figure,
-    /// The clock on an HX8K, MHz.
+    /// The clock on the family's device, MHz.
     pub est_mhz: Figure,
     /// Look-up tables of each unit.
     pub est_lut4_by_unit: BTreeMap<String, f64>,
@@ -72,8 +76,6 @@ pub struct Fit {
     pub errors: Errors,
 }
 
-/// Where the fit of the delays begins, and what it is drawn to.
-const USUAL: Delays = Delays { register: 1.2, table: 1.15, carry: 0.19, entry: 1.0, fanout: 0.2, size: 0.3 };
 /// How strongly, for each delay: in samples that contradict it by one of it.
 const HOLD: f64 = 1.0;
 /// Rounds in which paths are found with the delays, and delays with the paths.
@@ -81,20 +83,20 @@ const ROUNDS: usize = 4;
 /// Share of the held-out machines that the error covers.
 const COVERED: f64 = 0.9;
 
-static FITTED: LazyLock<Option<Fit>> =
-    LazyLock::new(|| serde_json::from_str(include_str!("../../data/ice40.json")).ok());
+static FITTED: LazyLock<[Option<Fit>; 2]> =
+    LazyLock::new(|| Fpga::ALL.map(|family| serde_json::from_str(family.fitted()).ok()));
 
 impl Fit {
     /// What was fitted to the machines in the tree; without such a file every factor is 1.
     #[must_use]
-    pub fn known() -> Fit {
-        FITTED.clone().unwrap_or_else(Fit::before)
+    pub fn known(family: Fpga) -> Fit {
+        FITTED[family as usize].clone().unwrap_or_else(|| Fit::before(family))
     }
 
     /// Before anything was measured.
     #[must_use]
-    pub fn before() -> Fit {
-        Fit { lut4: 1.0, cells: 1.0, delays: USUAL, errors: Errors::default() }
+    pub fn before(family: Fpga) -> Fit {
+        Fit { lut4: 1.0, cells: 1.0, delays: family.usual(), errors: Errors::default() }
     }
 
     /// The estimate of a structure.
@@ -117,7 +119,8 @@ impl Fit {
             est_lut4: figure(lut4.round(), of_lut4),
             est_carry: of.carry,
             est_ff: of.ff,
-            est_ram: of.ram,
+            est_ram: of.ram + of.distributed,
+            est_dsp: of.products,
             est_cells: figure(cells.round(), of_cells),
             est_mhz: figure(mhz, of_mhz),
             est_lut4_by_unit: by_unit,
@@ -139,8 +142,8 @@ impl Fit {
     /// Fits to the samples that are not held out, and tells the errors of those that are. `again` works a sample's
     /// structure out with other delays: another path may be the longest.
     #[must_use]
-    pub fn to(samples: &[Sample], again: impl Fn(&Sample, &Delays) -> Structure + Sync) -> Fit {
-        let mut fit = Fit::before();
+    pub fn to(family: Fpga, samples: &[Sample], again: impl Fn(&Sample, &Delays) -> Structure + Sync) -> Fit {
+        let mut fit = Fit::before(family);
         let used: Vec<&Sample> = samples.iter().filter(|sample| !sample.measured.held_out).collect();
         let whole = || used.iter().filter(|sample| sample.measured.part == WHOLE);
         let tables = whole().map(|sample| sample.measured.cells[0] as f64 / sample.structure.lut4() as f64);
@@ -156,7 +159,7 @@ impl Fit {
             .map(|sample| (*sample).clone())
             .collect();
         for _ in 0..ROUNDS {
-            fit.delays = fit.delays_of(&placed);
+            fit.delays = fit.delays_of(family.usual(), &placed);
             placed.par_iter_mut().for_each(|sample| sample.structure = again(sample, &fit.delays));
         }
         fit.errors = fit.errors_of(samples, &again);
@@ -164,8 +167,8 @@ impl Fit {
     }
 
     /// Least squares of the relative error, drawn to the usual delays. No delay is negative.
-    fn delays_of(&self, samples: &[Sample]) -> Delays {
-        let usual = [USUAL.register, USUAL.table, USUAL.carry, USUAL.entry, USUAL.fanout, USUAL.size];
+    fn delays_of(&self, usual: Delays, samples: &[Sample]) -> Delays {
+        let usual = [usual.register, usual.table, usual.carry, usual.entry, usual.fanout, usual.size];
         let mut delays = usual;
         let rows: Vec<([f64; 6], f64)> = samples
             .iter()
@@ -245,7 +248,7 @@ fn middle(mut values: Vec<f64>) -> Option<f64> {
 }
 
 /// What so many of these are at most, without their signs.
-fn covered(values: Vec<f64>) -> Option<f64> {
+pub(super) fn covered(values: Vec<f64>) -> Option<f64> {
     let mut values: Vec<f64> = values.into_iter().map(f64::abs).collect();
     values.sort_by(f64::total_cmp);
     let place = (values.len() as f64 * COVERED).ceil() as usize;

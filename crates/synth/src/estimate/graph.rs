@@ -1,5 +1,6 @@
 //! Logic as two-input ANDs with inverters on their inputs, bits of carry chains, and leaves.
 
+use super::family::Family;
 use std::collections::HashMap;
 use std::hash::{BuildHasherDefault, Hasher};
 
@@ -29,6 +30,8 @@ pub(super) enum Node {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct CarryBit {
     pub inputs: [Lit; 3],
+    /// The carry cell that the bit lies in. On an ECP5 two bits share one.
+    pub cell: u32,
 }
 
 /// A hash that is quick for small numbers.
@@ -68,6 +71,7 @@ pub(super) struct Graph {
     pub carries: Vec<CarryBit>,
     /// The unit that nodes are made for now.
     pub unit: u8,
+    pub family: Family,
     same: QuickMap<(Lit, Lit), Lit>,
     /// By node: it is `if .0 { .1 } else { .2 }`.
     pub choices: QuickMap<u32, (Lit, Lit, Lit)>,
@@ -75,12 +79,13 @@ pub(super) struct Graph {
 
 impl Graph {
     /// With room for so many nodes.
-    pub fn new(room: usize) -> Graph {
+    pub fn new(room: usize, family: Family) -> Graph {
         Graph {
             nodes: vec![Node::Leaf],
             units: vec![0],
             carries: Vec::new(),
             unit: 0,
+            family,
             same: QuickMap::with_capacity_and_hasher(room, Default::default()),
             choices: QuickMap::default(),
         }

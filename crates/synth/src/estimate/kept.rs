@@ -1,6 +1,8 @@
 //! Modules that were worked out, for machines that have them too.
 
 use super::delay::Delays;
+use super::family::Family;
+use super::fpga::Fpga;
 use super::graph::{Quick, QuickMap};
 use super::module::{Logic, Module, Ports};
 use super::ports::View;
@@ -36,6 +38,7 @@ pub(super) struct Viewed {
 
 /// Modules of the machines that were estimated so far. A module that several machines have is worked out once.
 pub struct Kept {
+    pub(super) family: Family,
     delays: Delays,
     /// By the number of the netlist and the view.
     modules: Mutex<QuickMap<u64, QuickMap<View, Arc<Viewed>>>>,
@@ -46,13 +49,14 @@ pub struct Kept {
 impl Kept {
     /// Nothing is kept so far.
     #[must_use]
-    pub fn new(delays: Delays) -> Kept {
-        Kept { delays, modules: Mutex::default(), units: Mutex::default() }
+    pub fn new(delays: Delays, family: Fpga) -> Kept {
+        Kept { family: family.family(), delays, modules: Mutex::default(), units: Mutex::default() }
     }
 
     /// Of a module with all that is in it.
     pub(crate) fn alone(&self, netlist: &Netlist, name: &str) -> Structure {
-        let module = Logic::of(netlist, &View::default()).module(&self.delays);
+        let view = View { family: self.family, ..View::default() };
+        let module = Logic::of(netlist, &view).module(&self.delays);
         let mut tables: Vec<UnitTables> = module
             .tables
             .iter()
@@ -71,6 +75,8 @@ impl Kept {
             carry: module.carry,
             ff: module.ff,
             ram: module.ram,
+            distributed: module.distributed,
+            products: module.products,
             lone_ff: module.lone_ff,
             lone_carry: module.lone_carry,
             path: longest.path,

@@ -14,8 +14,8 @@ pub struct Measured {
     pub shape: u64,
     /// The fit leaves this row out; the printed errors are those of such rows.
     pub held_out: bool,
-    /// Look-up tables, carry cells, flip-flops and memory blocks by Yosys.
-    pub cells: [u64; 4],
+    /// Look-up tables, carry cells, flip-flops, memories and multipliers by Yosys.
+    pub cells: [u64; 5],
     /// Logic cells after packing, without the harness.
     pub packed: Option<u64>,
     /// Clock by nextpnr, seed 1; none where the design does not fit.
@@ -35,7 +35,7 @@ pub struct Sample {
     pub structure: Structure,
 }
 
-const HEAD: &str = "machine,part,shape,held_out,lut4,carry,ff,ram,packed,mhz,yosys,nextpnr";
+const HEAD: &str = "machine,part,shape,held_out,lut4,carry,ff,ram,dsp,packed,mhz,yosys,nextpnr";
 
 impl Measured {
     /// The table with its head.
@@ -43,13 +43,13 @@ impl Measured {
     pub fn table(rows: &[Measured]) -> String {
         let mut text = format!("{HEAD}\n");
         for row in rows {
-            let [lut4, carry, ff, ram] = row.cells;
+            let [lut4, carry, ff, ram, dsp] = row.cells;
             let packed = row.packed.map(|cells| cells.to_string()).unwrap_or_default();
             let mhz = row.mhz.map(|mhz| format!("{mhz:.2}")).unwrap_or_default();
             let held_out = if row.held_out { "yes" } else { "no" };
             let _ = writeln!(
                 text,
-                "{},{},{:016x},{held_out},{lut4},{carry},{ff},{ram},{packed},{mhz},{},{}",
+                "{},{},{:016x},{held_out},{lut4},{carry},{ff},{ram},{dsp},{packed},{mhz},{},{}",
                 row.machine, row.part, row.shape, row.yosys, row.nextpnr
             );
         }
@@ -73,7 +73,7 @@ impl Measured {
 
 fn row(line: &str) -> Result<Measured, String> {
     let fields: Vec<&str> = line.split(',').collect();
-    let [machine, part, shape, held_out, lut4, carry, ff, ram, packed, mhz, yosys, nextpnr] = fields[..]
+    let [machine, part, shape, held_out, lut4, carry, ff, ram, dsp, packed, mhz, yosys, nextpnr] = fields[..]
     else {
         return Err(format!("{} fields, a row has {}", fields.len(), HEAD.split(',').count()));
     };
@@ -95,7 +95,13 @@ fn row(line: &str) -> Result<Measured, String> {
             "no" => false,
             _ => return Err(format!("held_out: `{held_out}`, permitted: yes, no")),
         },
-        cells: [count("lut4", lut4)?, count("carry", carry)?, count("ff", ff)?, count("ram", ram)?],
+        cells: [
+            count("lut4", lut4)?,
+            count("carry", carry)?,
+            count("ff", ff)?,
+            count("ram", ram)?,
+            count("dsp", dsp)?,
+        ],
         packed: if packed.is_empty() { None } else { Some(count("packed", packed)?) },
         mhz,
         yosys: yosys.to_owned(),

@@ -3,6 +3,7 @@
 
 use super::build::Built;
 use super::cover::Cover;
+use super::family::Family;
 use super::graph::{Lit, Node};
 
 /// Inputs of a table.
@@ -20,6 +21,9 @@ pub(super) struct Merges {
 pub(super) fn merges(built: &Built, cover: &Cover) -> Merges {
     let nodes = &built.graph.nodes;
     let mut found = Merges { behind: vec![None; nodes.len()], before: vec![false; nodes.len()] };
+    if built.graph.family == Family::Ecp5 {
+        return found; // no tables lie in a carry chain
+    }
     let mut taken = vec![false; nodes.len()];
     for (index, table) in cover.tables.iter().enumerate() {
         let Some(table) = table else { continue };

@@ -1,9 +1,10 @@
 //! A module by itself: its counts, its longest ways, and what is known of its ports then.
 
 use super::build::{Built, build};
-use super::builder::UNKNOWN;
+use super::builder::{Kind, UNKNOWN};
 use super::cover::{Cover, cover, live, roots};
 use super::delay::Delays;
+use super::family::Family;
 use super::graph::{Lit, Node, QuickMap, TRUE};
 use super::merge::{Merges, merges};
 use super::narrow::narrow;
@@ -42,7 +43,10 @@ pub(super) struct Module {
     pub tables: Vec<(String, u64)>,
     pub carry: u64,
     pub ff: u64,
+    /// Memory blocks, memories in look-up tables, multipliers.
     pub ram: u64,
+    pub distributed: u64,
+    pub products: u64,
     pub lone_ff: u64,
     pub lone_carry: u64,
     pub ways: Ways,
@@ -101,13 +105,18 @@ impl Logic {
             Counter { built, cover: &cover, merges: &merges, tables: vec![0; words.units.len()] };
         counts.tables();
         let tables = words.units.iter().cloned().zip(counts.tables.iter().copied()).collect();
-        let (carry, lone_carry) = counts.carries();
         let (ff, lone_ff) = counts.flip_flops();
+        let ((carry, lone_carry), lone_ff) = match built.graph.family {
+            Family::Ice40 => (counts.carries(), lone_ff),
+            Family::Ecp5 | Family::Gates => (counts.pairs(), 0), // a flip-flop of an ECP5 takes no look-up table's place
+        };
         Module {
             tables,
             carry,
             ff,
-            ram: counts.blocks(),
+            ram: counts.cells_of(Kind::Block),
+            distributed: counts.cells_of(Kind::Distributed),
+            products: counts.cells_of(Kind::Product),
             lone_ff,
             lone_carry,
             ways: ways(built, &cover, &merges, delays, &words.wanted),
@@ -155,7 +164,9 @@ impl Counter<'_> {
         let own = |node: usize| self.built.graph.units[node] as usize;
         for (index, node) in self.live() {
             let merged = self.merges.before[index] || self.merges.behind[index].is_some();
-            let is_table = matches!(node, Node::Sum(_)) || (self.cover.tables[index].is_some() && !merged);
+            let sums = self.built.graph.family == Family::Ice40;
+            let is_table =
+                (sums && matches!(node, Node::Sum(_))) || (self.cover.tables[index].is_some() && !merged);
             tables[own(index)] += u64::from(is_table);
         }
         for inverter in &self.cover.inverters {
@@ -179,6 +190,18 @@ impl Counter<'_> {
             lone += u64::from(self.cover.readers[index] > 0 && self.read_as_logic(index));
         }
         (carries, lone)
+    }
+
+    /// Carry cells of an ECP5, and the places of look-up tables that these and small memories take.
+    fn pairs(&self) -> (u64, u64) {
+        let cell = |node| match node {
+            Node::Sum(place) | Node::Carry(place) => Some(self.built.graph.carries[place as usize].cell),
+            _ => None,
+        };
+        let mut cells: Vec<u32> = self.live().filter_map(|(_, node)| cell(node)).collect();
+        cells.dedup();
+        let carries = cells.len() as u64;
+        (carries, 2 * carries + 4 * self.cells_of(Kind::Distributed))
     }
 
     /// Whether somebody beside the next step of the chain reads a carry.
@@ -209,7 +232,8 @@ impl Counter<'_> {
         (all, lone)
     }
 
-    fn blocks(&self) -> u64 {
+    /// Memory cells or multipliers of a kind.
+    fn cells_of(&self, kind: Kind) -> u64 {
         let mut live = vec![false; self.built.memories.len()];
         for (_, node) in self.live() {
             if let Node::Memory(place) = node {
@@ -220,7 +244,7 @@ impl Counter<'_> {
             .memories
             .iter()
             .zip(live)
-            .filter(|(_, live)| *live)
+            .filter(|(memory, live)| *live && memory.kind == kind)
             .map(|(memory, _)| u64::from(memory.blocks))
             .sum()
     }

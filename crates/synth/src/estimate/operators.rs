@@ -1,10 +1,15 @@
 //! Operators as Yosys' `techmap` does them, and sums with the sums that they are made of.
 
-use super::arithmetic::{Operand, Relation, Term, may_overflow, reduced};
-use super::builder::Builder;
-use super::graph::{FALSE, Graph, Lit, TRUE};
+use super::arithmetic::{Term, may_overflow, reduced};
+use super::builder::{BlockMemory, Builder, Kind};
+use super::comparison::{Operand, Relation};
+use super::family::Family;
+use super::graph::{FALSE, Graph, Lit, Node, TRUE};
 use super::words::{Cell, ONE};
 use edgewalk_netlist::ops::Op;
+
+/// Bits of a factor of a multiplier.
+const MULTIPLIER: usize = 18;
 
 impl Builder<'_> {
     pub fn cell(&mut self, cell: &Cell) {
@@ -124,7 +129,58 @@ impl Builder<'_> {
         word
     }
 
+    /// A product of an ECP5: multipliers of 18 by 18 bits, and sums of what they give. None where a factor is a single
+    /// bit, or on another family.
+    fn multiplied(&mut self, cell: &Cell, operands: &[Vec<Lit>]) -> Option<Vec<Lit>> {
+        let is_product = matches!(cell.op, Op::Mul | Op::MulSigned) && self.words.family == Family::Ecp5;
+        let (terms, width, _) = is_product.then(|| self.terms(cell, operands, cell.width))?;
+        let (a, b) = (&terms[0].a, terms[0].b.as_ref()?);
+        if a.len() < 2 || b.len() < 2 {
+            return None;
+        }
+        let mut sum: Option<Vec<Lit>> = None;
+        for (above_a, a) in a.chunks(MULTIPLIER).enumerate() {
+            for (above_b, b) in b.chunks(MULTIPLIER).enumerate() {
+                let place = self.memories.len() as u32;
+                self.memories.push(BlockMemory {
+                    kind: Kind::Product,
+                    place: 0,
+                    port: 0,
+                    bits: Vec::new(),
+                    blocks: 1,
+                    inputs: a.iter().chain(b).copied().collect(),
+                    reads: Vec::new(),
+                    writes: Vec::new(),
+                });
+                let shift = (above_a + above_b) * MULTIPLIER;
+                let bit = |at: usize| at >= shift && at < shift + a.len() + b.len();
+                let word: Vec<Lit> = (0..width)
+                    .map(|at| if bit(at) { self.graph.node(Node::Memory(place)) } else { FALSE })
+                    .collect();
+                sum = Some(match sum {
+                    None => word,
+                    Some(sum) => {
+                        let low = sum[..shift.min(width)].to_vec();
+                        let high = self.graph.alu(
+                            &sum[low.len()..],
+                            &word[low.len()..],
+                            false,
+                            false,
+                            FALSE,
+                            width - low.len(),
+                        );
+                        low.into_iter().chain(high.0).collect()
+                    }
+                });
+            }
+        }
+        sum.map(|sum| (0..cell.width).map(|at| sum.get(at).copied().unwrap_or(FALSE)).collect())
+    }
+
     fn sum(&mut self, cell: &Cell, operands: &[Vec<Lit>]) -> Vec<Lit> {
+        if let Some(product) = self.multiplied(cell, operands) {
+            return product;
+        }
         let bits = cell.first as usize..cell.first as usize + cell.width;
         let used =
             self.words.users[bits.clone()].iter().rposition(|users| *users > 0).map_or(1, |top| top + 1);

@@ -1,5 +1,6 @@
 //! What is known at the ports of a module that stands among others.
 
+use super::family::Family;
 use std::hash::{Hash, Hasher};
 
 /// A bit at a port.
@@ -24,6 +25,8 @@ pub(super) struct View {
     pub outside: bool,
     /// The module is an instance of another.
     pub inside: bool,
+    /// What the module is built of.
+    pub family: Family,
 }
 
 impl View {
@@ -48,6 +51,6 @@ impl Hash for View {
             hash.write_u64(pair.iter().fold(0, |word, seen| word << 32 | number(seen)));
         }
         self.readers.hash(hash);
-        (self.outside, self.inside).hash(hash);
+        (self.outside, self.inside, self.family).hash(hash);
     }
 }

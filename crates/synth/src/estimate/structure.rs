@@ -15,6 +15,10 @@ pub struct Structure {
     pub ff: u64,
     /// Memory blocks.
     pub ram: u64,
+    /// Memories of 16 words of 4 bits in look-up tables, on an ECP5.
+    pub distributed: u64,
+    /// Multipliers, on an ECP5.
+    pub products: u64,
     /// Flip-flops that share no cell with the table before them.
     pub lone_ff: u64,
     /// Cells that a carry chain takes beside its sums: carries without a sum, and ways in and out.

@@ -1,7 +1,7 @@
 //! The longest ways through a module's logic: between its registers, from and to its ports, and from port to port.
 
 use super::build::Built;
-use super::builder::UNKNOWN;
+use super::builder::{Kind, UNKNOWN};
 use super::cover::Cover;
 use super::delay::{Delays, Path};
 use super::graph::{Lit, Node};
@@ -74,9 +74,12 @@ pub(super) fn ways(built: &Built, cover: &Cover, merges: &Merges, delays: &Delay
     let mut open = vec![false; count];
     for index in (0..count).filter(|index| cover.live[*index]) {
         open[index] = input[index] != u32::MAX;
-        if matches!(built.graph.nodes[index], Node::Leaf | Node::Register(_) | Node::Memory(_))
-            && !open[index]
-        {
+        let begins = match built.graph.nodes[index] {
+            Node::Leaf | Node::Register(_) => true,
+            Node::Memory(place) => built.memories[place as usize].kind != Kind::Distributed,
+            _ => false,
+        };
+        if begins && !open[index] {
             from[index] = Some(Way::default());
         }
         walk.hops(index, |before, hop| {
@@ -148,6 +151,14 @@ impl Walk<'_> {
                         },
                     );
                 }
+            }
+            // Look-up tables of a memory are read without a clock.
+            Node::Memory(place) if self.built.memories[place as usize].kind == Kind::Distributed => {
+                let addresses = self.built.memories[place as usize].reads.iter().flat_map(|(_, word)| word);
+                addresses.for_each(|lit| {
+                    let from = (lit >> 1) as usize;
+                    each(from, wired(from, self.delays.table, table));
+                });
             }
             _ => {
                 for leaf in self.cover.tables[index].iter().flat_map(|table| table.leaves()) {

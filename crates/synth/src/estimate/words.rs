@@ -1,6 +1,7 @@
 //! The netlist as cells whose operands are single bits. Hierarchy, wires, slices, extensions and cells without a reader are
 //! gone. Equal operators on equal operands are one cell, as Yosys' `opt_merge` makes them.
 
+use super::family::Family;
 use super::graph::{Quick, QuickMap};
 use super::ports::{Seen, View};
 use edgewalk_netlist::netlist::{Netlist, NodeId, Source};
@@ -89,6 +90,8 @@ pub(super) struct Words {
     pub bitwise: Vec<bool>,
     /// Registers that are kept a flip-flop a state; none before they are looked for.
     pub machines: Vec<StateMachine>,
+    /// What the module is built of.
+    pub family: Family,
     /// The instances of the top module, behind the top module's own name.
     pub units: Vec<String>,
 }
@@ -132,7 +135,12 @@ impl Words {
             inputs: Vec::new(),
             instances: Vec::new(),
             scopes: Vec::new(),
-            words: Words { bits: 2, units: vec![netlist.name.clone()], ..Words::default() },
+            words: Words {
+                bits: 2,
+                units: vec![netlist.name.clone()],
+                family: view.family,
+                ..Words::default()
+            },
             known: Vec::new(),
             same: QuickMap::default(),
             registers: Vec::new(),
