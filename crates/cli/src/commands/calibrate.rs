@@ -22,8 +22,7 @@ use rayon::prelude::*;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-/// Synthesise machines for a device of the family, keep what the tools say in a table, and fit the factors of
-/// `edgewalk estimate` to it.
+/// Synthesise machines for a device of the family, and fit the factors of `edgewalk estimate` to what the tools say.
 ///
 /// Every second machine is held out: nothing is fitted to it, and the errors are told of those. Of the others the
 /// engine (all units but setup) is synthesised by itself too: it fits the device more often, so it has a clock. A
