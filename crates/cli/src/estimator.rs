@@ -1,8 +1,8 @@
 //! The estimate of one machine after another, for sweeps and comparisons.
 
 use edgewalk_machine::Plan;
-use edgewalk_synth::estimate::{Fit, Fpga, Kept, fits};
-use edgewalk_synth::{Part, Target, memories};
+use edgewalk_synth::estimate::{Fit, Kept, fits};
+use edgewalk_synth::{Fpga, Part, Target, memories};
 use serde_json::{Value, json};
 
 /// Estimates machines.

@@ -10,7 +10,6 @@
 //! Look-up tables and clock are a model's, whose factors were fitted to machines that were synthesised.
 
 mod family;
-mod fpga;
 mod ports;
 mod words;
 mod states;
@@ -45,7 +44,6 @@ mod gates_fit;
 pub use delay::{Delays, Path};
 pub use device::{Fits, fits};
 pub use fit::{Errors, Estimate, Figure, Fit};
-pub use fpga::Fpga;
 pub use gates::GateCounts;
 pub use gates_fit::{GatesEstimate, GatesFit};
 pub use gates_measured::MeasuredUnit;

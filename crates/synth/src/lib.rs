@@ -22,6 +22,7 @@
 mod part;
 mod harness;
 mod design;
+mod fpga;
 mod target;
 mod memories;
 mod cells;
@@ -38,6 +39,7 @@ pub use cache::Cache;
 pub use cells::Cells;
 pub use design::Design;
 pub use flow::Flow;
+pub use fpga::Fpga;
 pub use memories::{Block, Blocks, Memory, memories};
 pub use packed::Packed;
 pub use part::{Part, UnknownPart};

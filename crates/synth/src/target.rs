@@ -1,6 +1,6 @@
 //! The devices, and how each is synthesised for: programs, commands, and which cell counts as what.
 
-use crate::estimate::Fpga;
+use crate::fpga::Fpga;
 use crate::memories::Block;
 use edgewalk_machine::Unknown;
 
@@ -90,6 +90,16 @@ impl Target {
         logic_cells: 24_288,
         blocks: &[DP16KD],
     };
+
+    /// The device that machines are synthesised for to fit an estimate. The Yosys is that whose passes the estimate
+    /// follows, and not the wheel of `edgewalk synth`.
+    #[must_use]
+    pub fn measured(family: Fpga) -> Target {
+        match family {
+            Fpga::Ice40 => Target::HX8K,
+            Fpga::Ecp5 => Target { yosys: "yosys", ..Target::ECP5 },
+        }
+    }
 
     /// The programs that it takes.
     #[must_use]

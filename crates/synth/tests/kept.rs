@@ -4,8 +4,8 @@
 use edgewalk_machine::key::{Domain, Key};
 use edgewalk_machine::keys::KEYS;
 use edgewalk_machine::{Machine, Plan};
-use edgewalk_synth::Part;
-use edgewalk_synth::estimate::{Fit, Fpga, Kept};
+use edgewalk_synth::estimate::{Fit, Kept};
+use edgewalk_synth::{Fpga, Part};
 use rand::seq::IndexedRandom;
 use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64Mcg;

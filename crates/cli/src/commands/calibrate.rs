@@ -16,8 +16,8 @@ use crate::scratch::Scratch;
 use crate::verdict::Verdict;
 use anyhow::{Context, Result, anyhow};
 use edgewalk_machine::Plan;
-use edgewalk_synth::estimate::{Delays, Fit, Fpga, Kept, Measured, Sample, Structure};
-use edgewalk_synth::{Cache, Design, Flow, Part, Target};
+use edgewalk_synth::estimate::{Delays, Fit, Kept, Measured, Sample, Structure};
+use edgewalk_synth::{Cache, Design, Flow, Fpga, Part, Target};
 use rayon::prelude::*;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
@@ -94,7 +94,7 @@ pub fn run(args: &Args, talk: Talk) -> Result<Verdict> {
     let mut rows = Measured::rows(&table).map_err(|why| anyhow!("{}: {why}", data.display()))?;
     let bar = progress::bar(args.count as u64, "machines", talk.quiet);
     if args.count > 0 {
-        let bench = Bench { args, cache, target: family.measured() };
+        let bench = Bench { args, cache, target: Target::measured(family) };
         for (place, line) in lines.iter().take(args.count).enumerate() {
             let plan = plan(line)?;
             let held_out = place % 2 == 1 || args.unit.is_some();

@@ -1,5 +1,6 @@
 //! Delays that were fitted to placed designs, and what a path consists of.
 
+use crate::fpga::Fpga;
 use serde::{Deserialize, Serialize};
 
 /// What a path consists of.
@@ -36,6 +37,18 @@ pub struct Delays {
 const USUAL_CELLS: f64 = 1000.0;
 
 impl Delays {
+    /// Where the fit of the delays begins, and what it is drawn to.
+    pub(super) fn usual(family: Fpga) -> Delays {
+        match family {
+            Fpga::Ice40 => {
+                Delays { register: 1.2, table: 1.15, carry: 0.19, entry: 1.0, fanout: 0.2, size: 0.3 }
+            }
+            Fpga::Ecp5 => {
+                Delays { register: 0.8, table: 0.8, carry: 0.06, entry: 0.6, fanout: 0.1, size: 0.2 }
+            }
+        }
+    }
+
     /// Of a path in a module of so many cells, ns.
     #[must_use]
     pub fn of(&self, path: &Path, cells: f64) -> f64 {

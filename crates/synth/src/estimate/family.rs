@@ -1,5 +1,7 @@
 //! What logic is built of.
 
+use crate::fpga::Fpga;
+
 /// Cells of an FPGA, or gates.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub(super) enum Family {
@@ -13,6 +15,14 @@ pub(super) enum Family {
 }
 
 impl Family {
+    /// The cells of a family of FPGAs.
+    pub fn of(family: Fpga) -> Family {
+        match family {
+            Fpga::Ice40 => Family::Ice40,
+            Fpga::Ecp5 => Family::Ecp5,
+        }
+    }
+
     /// A sum of so few bits has no carry cell (`arith_map.v` of Yosys).
     pub fn short_sum(self) -> usize {
         match self {

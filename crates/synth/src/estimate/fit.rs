@@ -1,9 +1,9 @@
 //! The factors and delays that make an estimate of a structure, and how they follow from what was measured.
 
 use super::delay::Delays;
-use super::fpga::Fpga;
 use super::measured::{Measured, Sample};
 use super::structure::Structure;
+use crate::fpga::Fpga;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -83,8 +83,16 @@ const ROUNDS: usize = 4;
 /// Share of the held-out machines that the error covers.
 const COVERED: f64 = 0.9;
 
+/// What was fitted to machines of the tree, JSON.
+fn fitted(family: Fpga) -> &'static str {
+    match family {
+        Fpga::Ice40 => include_str!("../../data/ice40.json"),
+        Fpga::Ecp5 => include_str!("../../data/ecp5.json"),
+    }
+}
+
 static FITTED: LazyLock<[Option<Fit>; 2]> =
-    LazyLock::new(|| Fpga::ALL.map(|family| serde_json::from_str(family.fitted()).ok()));
+    LazyLock::new(|| Fpga::ALL.map(|family| serde_json::from_str(fitted(family)).ok()));
 
 impl Fit {
     /// What was fitted to the machines in the tree; without such a file every factor is 1.
@@ -96,7 +104,7 @@ impl Fit {
     /// Before anything was measured.
     #[must_use]
     pub fn before(family: Fpga) -> Fit {
-        Fit { lut4: 1.0, cells: 1.0, delays: family.usual(), errors: Errors::default() }
+        Fit { lut4: 1.0, cells: 1.0, delays: Delays::usual(family), errors: Errors::default() }
     }
 
     /// The estimate of a structure.
@@ -159,7 +167,7 @@ impl Fit {
             .map(|sample| (*sample).clone())
             .collect();
         for _ in 0..ROUNDS {
-            fit.delays = fit.delays_of(family.usual(), &placed);
+            fit.delays = fit.delays_of(Delays::usual(family), &placed);
             placed.par_iter_mut().for_each(|sample| sample.structure = again(sample, &fit.delays));
         }
         fit.errors = fit.errors_of(samples, &again);

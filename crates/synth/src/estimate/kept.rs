@@ -2,12 +2,12 @@
 
 use super::delay::Delays;
 use super::family::Family;
-use super::fpga::Fpga;
 use super::graph::{Quick, QuickMap};
 use super::module::{Logic, Module, Ports};
 use super::ports::View;
 use super::reads::keys_read;
 use super::structure::{Structure, UnitTables};
+use crate::fpga::Fpga;
 use edgewalk_machine::Plan;
 use edgewalk_netlist::netlist::Source;
 use edgewalk_netlist::{BuildErrors, Netlist};
@@ -50,7 +50,7 @@ impl Kept {
     /// Nothing is kept so far.
     #[must_use]
     pub fn new(delays: Delays, family: Fpga) -> Kept {
-        Kept { family: family.family(), delays, modules: Mutex::default(), units: Mutex::default() }
+        Kept { family: Family::of(family), delays, modules: Mutex::default(), units: Mutex::default() }
     }
 
     /// Of a module with all that is in it.
