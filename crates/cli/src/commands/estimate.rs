@@ -14,6 +14,7 @@ use crate::machine_args::MachineArgs;
 use crate::verdict::Verdict;
 use anyhow::{Result, anyhow};
 use edgewalk_machine::{Plan, Unknown};
+use edgewalk_netlist::BuildErrors;
 use edgewalk_synth::estimate::{Estimate, Figure, Fit, Fits, Kept, fits};
 use edgewalk_synth::{Fpga, Part, Target, memories};
 use serde::Serialize;
@@ -60,22 +61,56 @@ struct Report {
     device: &'static str,
     /// What the errors are those of.
     errors: edgewalk_synth::estimate::Errors,
-    machines: Vec<Row>,
+    machines: Vec<Row<OnFpga>>,
 }
 
+/// A machine and its estimate.
 #[derive(Serialize)]
-struct Row {
+struct Row<E> {
     name: String,
     /// Hash of the machine.
     machine: String,
     /// A number for what the netlist computes. The text does not tell it.
     shape: Option<String>,
     #[serde(flatten)]
-    estimate: Estimate,
-    /// Devices of --fits.
-    fits: Vec<Fits>,
+    estimate: E,
     /// What the estimate took, netlist included.
     milliseconds: f64,
+}
+
+/// The estimate for an FPGA.
+#[derive(Serialize)]
+struct OnFpga {
+    #[serde(flatten)]
+    figures: Estimate,
+    /// Devices of --fits.
+    fits: Vec<Fits>,
+}
+
+/// A row for each machine, by the estimate of its part.
+fn rows<E>(
+    unit: &str,
+    machines: &[(String, Plan)],
+    talk: Talk,
+    estimate: impl Fn(Part, &Plan) -> Result<E, BuildErrors>,
+) -> Result<Vec<Row<E>>> {
+    let mut rows = Vec::new();
+    for (name, plan) in machines {
+        let part = Part::named(unit, plan).map_err(|error| anyhow!("--unit {unit}: {error}"))?;
+        let built = |error| anyhow!("{name}: the netlist cannot be built: {error}");
+        let since = Instant::now();
+        let estimate = estimate(part, plan).map_err(built)?;
+        let milliseconds = since.elapsed().as_secs_f64() * 1000.0;
+        let shape = talk.json.then(|| part.shape(plan).map(|shape| format!("{shape:016x}"))).transpose();
+        rows.push(Row {
+            name: if name.is_empty() { "default".to_owned() } else { name.clone() },
+            machine: plan.hash(),
+            shape: shape.map_err(built)?,
+            estimate,
+            milliseconds,
+        });
+    }
+    Ok(rows)
 }
 
 /// Runs the command.
@@ -101,25 +136,11 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
     }
     let fit = Fit::known(family);
     let kept = Kept::new(fit.delays, family);
-    let mut rows = Vec::new();
-    for (name, plan) in &machines {
-        let part = Part::named(&args.unit, plan).map_err(|error| anyhow!("--unit {}: {error}", args.unit))?;
-        let built = |error| anyhow!("{name}: the netlist cannot be built: {error}");
-        let since = Instant::now();
-        let structure = part.structure(plan, &kept).map_err(built)?;
-        let estimate = fit.estimate(&structure);
-        let milliseconds = since.elapsed().as_secs_f64() * 1000.0;
-        let shape = talk.json.then(|| part.shape(plan).map(|shape| format!("{shape:016x}"))).transpose();
-        let shape = shape.map_err(built)?;
-        rows.push(Row {
-            name: if name.is_empty() { "default".to_owned() } else { name.clone() },
-            machine: plan.hash(),
-            shape,
-            fits: devices.iter().map(|device| fits(&estimate, memories(plan, part), device)).collect(),
-            estimate,
-            milliseconds,
-        });
-    }
+    let rows = rows(&args.unit, &machines, talk, |part, plan| {
+        let figures = fit.estimate(&part.structure(plan, &kept)?);
+        let fits = devices.iter().map(|device| fits(&figures, memories(plan, part), device)).collect();
+        Ok(OnFpga { figures, fits })
+    })?;
     let report = Report {
         unit: args.unit.clone(),
         family: family.name(),
@@ -163,7 +184,7 @@ impl Report {
             "ms"
         );
         for row in &self.machines {
-            let of = &row.estimate;
+            let of = &row.estimate.figures;
             let _ = writeln!(
                 text,
                 "{:width$}  {:>14}  {:>6}  {:>6}  {:>4}  {:>4}  {:>14}  {:>14}  {:>5.1}",
@@ -179,7 +200,7 @@ impl Report {
             );
         }
         for row in &self.machines {
-            for fits in &row.fits {
+            for fits in &row.estimate.fits {
                 let _ = writeln!(text, "{:width$}  {}: {}", row.name, fits.device, fits.text);
             }
         }
