@@ -27,6 +27,7 @@ struct Beside {
     exact: [u64; 4],
     packed: Option<f64>,
     mhz: Option<f64>,
+    sequenced: bool,
     estimate: Value,
 }
 
@@ -49,6 +50,7 @@ fn beside(family: &str) -> (Vec<Beside>, usize) {
             exact: [5, 6, 7, 8].map(|field: usize| row[field].parse().unwrap()),
             packed: row[9].parse().ok(),
             mhz: row[10].parse().ok(),
+            sequenced: row[0].contains("sequenced") || row[0].contains("hx8k") || row[0].contains("up5k"),
             estimate,
         })
         .collect();
@@ -122,6 +124,8 @@ fn the_page_tells_the_errors_of_measured_machines() {
         for row in &beside {
             let estimate = &row.estimate;
             let of_lut4 = off(estimate, "est_lut4", row.lut4);
+            // The page: with a parallel SETUP all tables of an ECP5 are within 9 %.
+            let most_lut4 = if row.sequenced { most_lut4 } else { f64::min(most_lut4, 0.09) };
             assert!(of_lut4 < most_lut4, "{}: LUT4 off by {of_lut4:.3}", estimate["name"]);
             let [carry, ff, ram, dsp] = [0, 1, 2, 3].map(|at| exact(estimate)[at].abs_diff(row.exact[at]));
             assert_eq!([ff, ram, dsp], [0; 3], "{}: off by {ff} FF, {ram} RAM, {dsp} DSP", estimate["name"]);
