@@ -83,17 +83,26 @@ pub fn run(args: &Args, talk: Talk) -> Result<Verdict> {
             lines.len()
         ));
     }
-    let folder = cache_folder(args.cache.as_deref())?;
-    let scratch = Scratch::within(&folder).with_context(|| format!("--cache {}", folder.display()))?;
-    let cache = Cache::new(folder, scratch.path().to_owned());
+    // A fit alone takes no tool, and no folder.
+    let scratch = match args.count {
+        0 => None,
+        _ => {
+            let folder = cache_folder(args.cache.as_deref())?;
+            let scratch =
+                Scratch::within(&folder).with_context(|| format!("--cache {}", folder.display()))?;
+            Some((Cache::new(folder, scratch.path().to_owned()), scratch))
+        }
+    };
+    let cache = scratch.as_ref().map(|(cache, _)| cache);
     let Some(family) = fpga else {
-        let bench = gates::Bench { cache, limit: Duration::from_secs(args.limit) };
-        return gates::run(&lines[..args.count], &bench, &data, &fitted, talk);
+        let limit = Duration::from_secs(args.limit);
+        let bench = cache.map(|cache| gates::Bench { cache, limit });
+        return gates::run(&lines[..args.count], bench.as_ref(), &data, &fitted, talk);
     };
     let table = if data.exists() { read(&data)? } else { String::new() };
     let mut rows = Measured::rows(&table).map_err(|why| anyhow!("{}: {why}", data.display()))?;
     let bar = progress::bar(args.count as u64, "machines", talk.quiet);
-    if args.count > 0 {
+    if let Some(cache) = cache {
         let bench = Bench { args, cache, target: Target::measured(family) };
         for (place, line) in lines.iter().take(args.count).enumerate() {
             let plan = plan(line)?;
@@ -202,7 +211,7 @@ fn samples(family: Fpga, rows: Vec<Measured>) -> Result<(Vec<Sample>, usize)> {
 /// Where machines are measured.
 struct Bench<'b> {
     args: &'b Args,
-    cache: Cache,
+    cache: &'b Cache,
     target: Target,
 }
 
@@ -226,7 +235,7 @@ impl Bench<'_> {
         }
         let design = Design::new(plan, design_part).map_err(built)?;
         let flow = |seeds| Flow {
-            cache: &self.cache,
+            cache: self.cache,
             limit: Duration::from_secs(self.args.limit),
             seeds,
             by_unit: false,

@@ -14,8 +14,8 @@ use std::path::Path;
 use std::time::Duration;
 
 /// Where machines are mapped.
-pub struct Bench {
-    pub cache: Cache,
+pub struct Bench<'b> {
+    pub cache: &'b Cache,
     /// For each run of a tool.
     pub limit: Duration,
 }
@@ -29,16 +29,19 @@ struct Report {
     fit: GatesFit,
 }
 
-/// Maps the machines of these lines, and fits to all rows of the table.
-pub fn run(lines: &[&str], bench: &Bench, data: &Path, fitted: &Path, talk: Talk) -> Result<Verdict> {
+/// Maps the machines of these lines on the bench, if there is one, and fits to all rows of the table.
+pub fn run(lines: &[&str], bench: Option<&Bench>, data: &Path, fitted: &Path, talk: Talk) -> Result<Verdict> {
     let table = if data.exists() { super::read(data)? } else { String::new() };
     let mut rows = MeasuredUnit::rows(&table).map_err(|why| anyhow!("{}: {why}", data.display()))?;
     let bar = progress::bar(lines.len() as u64, "machines", talk.quiet);
-    for (place, line) in lines.iter().enumerate() {
-        if bench.add(line, place % 2 == 1, &mut rows)? {
-            std::fs::write(data, MeasuredUnit::table(&rows)).with_context(|| data.display().to_string())?;
+    if let Some(bench) = bench {
+        for (place, line) in lines.iter().enumerate() {
+            if bench.add(line, place % 2 == 1, &mut rows)? {
+                std::fs::write(data, MeasuredUnit::table(&rows))
+                    .with_context(|| data.display().to_string())?;
+            }
+            bar.inc(1);
         }
-        bar.inc(1);
     }
     bar.finish_and_clear();
     let all = rows.len();
@@ -67,7 +70,7 @@ impl Report {
     }
 }
 
-impl Bench {
+impl Bench<'_> {
     /// Maps a machine, unless there are rows of the same netlist. Whether there are new rows.
     fn add(&self, line: &str, held_out: bool, rows: &mut Vec<MeasuredUnit>) -> Result<bool> {
         let plan = plan(line)?;
@@ -77,7 +80,7 @@ impl Bench {
             return Ok(false);
         }
         let design = Design::new(&plan, Part::MACHINE).map_err(built)?;
-        let found = gates(&design, &Library::installed()?, &self.cache, self.limit)?.placeless;
+        let found = gates(&design, &Library::installed()?, self.cache, self.limit)?.placeless;
         rows.retain(|row| row.machine != line);
         rows.extend(found.units.iter().map(|unit| MeasuredUnit {
             machine: line.to_owned(),
