@@ -4,9 +4,12 @@
 //!  machine ─> netlist ─> structure ─> factors and delays of the fit ─> table, JSON
 //! ```
 
+mod rows;
 mod gates;
 
 pub use gates::FAMILY;
+
+use rows::{Row, rows};
 
 use crate::Talk;
 use crate::document::document;
@@ -14,12 +17,10 @@ use crate::machine_args::MachineArgs;
 use crate::verdict::Verdict;
 use anyhow::{Result, anyhow};
 use edgewalk_machine::{Plan, Unknown};
-use edgewalk_netlist::BuildErrors;
 use edgewalk_synth::estimate::{Estimate, Figure, Fit, Fits, Kept, fits};
 use edgewalk_synth::{Fpga, Part, Target, memories};
 use serde::Serialize;
 use std::fmt::Write as _;
-use std::time::Instant;
 
 /// Estimate cells and clock of machines on an iCE40 or ECP5, or area in standard cells, from
 /// their netlists, in milliseconds, without tools.
@@ -64,20 +65,6 @@ struct Report {
     machines: Vec<Row<OnFpga>>,
 }
 
-/// A machine and its estimate.
-#[derive(Serialize)]
-struct Row<E> {
-    name: String,
-    /// Hash of the machine.
-    machine: String,
-    /// A number for what the netlist computes. The text does not tell it.
-    shape: Option<String>,
-    #[serde(flatten)]
-    estimate: E,
-    /// What the estimate took, netlist included.
-    milliseconds: f64,
-}
-
 /// The estimate for an FPGA.
 #[derive(Serialize)]
 struct OnFpga {
@@ -85,32 +72,6 @@ struct OnFpga {
     figures: Estimate,
     /// Devices of --fits.
     fits: Vec<Fits>,
-}
-
-/// A row for each machine, by the estimate of its part.
-fn rows<E>(
-    unit: &str,
-    machines: &[(String, Plan)],
-    talk: Talk,
-    estimate: impl Fn(Part, &Plan) -> Result<E, BuildErrors>,
-) -> Result<Vec<Row<E>>> {
-    let mut rows = Vec::new();
-    for (name, plan) in machines {
-        let part = Part::named(unit, plan).map_err(|error| anyhow!("--unit {unit}: {error}"))?;
-        let built = |error| anyhow!("{name}: the netlist cannot be built: {error}");
-        let since = Instant::now();
-        let estimate = estimate(part, plan).map_err(built)?;
-        let milliseconds = since.elapsed().as_secs_f64() * 1000.0;
-        let shape = talk.json.then(|| part.shape(plan).map(|shape| format!("{shape:016x}"))).transpose();
-        rows.push(Row {
-            name: if name.is_empty() { "default".to_owned() } else { name.clone() },
-            machine: plan.hash(),
-            shape: shape.map_err(built)?,
-            estimate,
-            milliseconds,
-        });
-    }
-    Ok(rows)
 }
 
 /// Runs the command.

@@ -1,6 +1,6 @@
 //! `edgewalk estimate --family osu018`: what machines cost in standard cells of 0.18 um.
 
-use super::{Row, rows};
+use super::rows::{Row, rows};
 use crate::Talk;
 use crate::document::document;
 use crate::verdict::Verdict;
