@@ -106,7 +106,14 @@ enum Command {
     Man(man::Args),
 }
 
+/// Makes the allocator keep freed memory for the next use. glibc gives memory back above a threshold, and raises this
+/// threshold to the largest block that was freed. Without that a sweep asks for the same memory again and again.
+fn keep_freed_memory() {
+    drop(std::hint::black_box(Vec::<u8>::with_capacity(16 << 20)));
+}
+
 fn main() -> ExitCode {
+    keep_freed_memory();
     let (talk, result) = match Cli::try_parse() {
         Ok(cli) => {
             let talk = Talk { json: cli.json, quiet: cli.quiet };

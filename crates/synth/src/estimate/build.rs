@@ -76,33 +76,51 @@ fn chosen_reset(graph: &Graph, flip_flop: &FlipFlop) -> Option<(Lit, bool, Lit)>
     }
 }
 
-/// Bits that never change, and bits that are always equal.
+/// Bits that never change, and bits that are always equal, and those that follow from them.
 fn simplify(built: &Built, bits: &[Bit], known: &mut Known) {
-    let mut twins: QuickMap<(Lit, Lit, Lit, bool, bool), Bit> = QuickMap::default();
-    for (flip_flop, bit) in built.flip_flops.iter().zip(bits) {
-        let FlipFlop { q, d, enable, reset, to, .. } = *flip_flop;
-        let reset_to = (reset != FALSE).then_some(to);
-        let constant = match (d, reset_to) {
-            (FALSE | TRUE, None) if enable != FALSE => Some(d == TRUE),
-            (FALSE | TRUE, Some(to)) if to == (d == TRUE) || enable == FALSE => Some(to),
-            (_, Some(to)) if d == q || enable == FALSE => Some(to),
-            (_, None) if d == q || enable == FALSE => Some(false),
-            _ => None,
-        };
-        if let Some(value) = constant {
-            known.insert(*bit, Known1::Constant(value));
-            continue;
-        }
-        // Of two that take the same value, one with a reset of its own is no twin of one without.
-        let own_reset = reset == FALSE && chosen_reset(&built.graph, flip_flop).is_some();
-        match twins.entry((d, enable, reset, to, own_reset)) {
-            Entry::Occupied(twin) => {
-                known.insert(*bit, Known1::Same(*twin.get()));
+    // By node: what it is, as far as flip-flops are known.
+    let mut is: Vec<Lit> = (0..built.graph.nodes.len() as Lit).map(|node| node * 2).collect();
+    loop {
+        let before = known.len();
+        let of = |lit: Lit| is[(lit >> 1) as usize] ^ (lit & 1);
+        let mut found = Vec::new();
+        let mut twins: QuickMap<(Lit, Lit, Lit, bool, bool), usize> = QuickMap::default();
+        for (place, (flip_flop, bit)) in built.flip_flops.iter().zip(bits).enumerate() {
+            if known.contains_key(bit) {
+                continue;
             }
-            Entry::Vacant(place) => {
-                place.insert(*bit);
+            let FlipFlop { q, d, enable, reset, to, .. } = *flip_flop;
+            let (d, enable) = (of(d), of(enable));
+            let reset_to = (reset != FALSE).then_some(to);
+            let constant = match (d, reset_to) {
+                (FALSE | TRUE, None) if enable != FALSE => Some(d == TRUE),
+                (FALSE | TRUE, Some(to)) if to == (d == TRUE) || enable == FALSE => Some(to),
+                (_, Some(to)) if d == q || enable == FALSE => Some(to),
+                (_, None) if d == q || enable == FALSE => Some(false),
+                _ => None,
+            };
+            if let Some(value) = constant {
+                known.insert(*bit, Known1::Constant(value));
+                found.push((q, Lit::from(value)));
+                continue;
+            }
+            // Of two that take the same value, one with a reset of its own is no twin of one without.
+            let own_reset = reset == FALSE && chosen_reset(&built.graph, flip_flop).is_some();
+            match twins.entry((d, enable, reset, to, own_reset)) {
+                Entry::Occupied(twin) => {
+                    known.insert(*bit, Known1::Same(bits[*twin.get()]));
+                    found.push((q, built.flip_flops[*twin.get()].q));
+                }
+                Entry::Vacant(first) => {
+                    first.insert(place);
+                }
             }
         }
+        if known.len() == before {
+            return;
+        }
+        found.into_iter().for_each(|(q, lit)| is[(q >> 1) as usize] = lit);
+        built.graph.follow(&mut is);
     }
 }
 

@@ -3,17 +3,21 @@
 
 use super::delay::Path;
 use super::kept::{Kept, Unit, Viewed};
-use super::module::{Gives, Logic, Module, OFTEN};
+use super::module::{Gives, Module, OFTEN};
 use super::ports::{Seen, View};
 use super::structure::{Structure, UnitTables};
 use super::ways::{Way, longer};
 use edgewalk_netlist::Netlist;
+use rayon::Scope;
 use rayon::prelude::*;
 use std::num::NonZeroU32;
 use std::sync::Arc;
 
 /// Rounds at most.
 const ROUNDS: usize = 32;
+/// The unit at the head of the pipeline. It is the largest one, and the last one of the first round. Its neighbours seldom
+/// tell more of it later, so its cover begins at once.
+const HEAD: usize = 1;
 
 /// Where a bit comes from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -49,17 +53,24 @@ struct Composed<'k> {
 struct Settled {
     view: View,
     viewed: Arc<Viewed>,
-    logic: Option<Logic>,
 }
 
 /// The machine of this netlist, whose instances are these units.
 pub(super) fn compose(kept: &Kept, joints: Unit, units: Vec<Unit>) -> Structure {
-    let mut composed = Composed::new(kept, joints, units);
-    let settled = composed.settle();
-    let viewed: Vec<Arc<Viewed>> = settled.iter().map(|of| of.viewed.clone()).collect();
-    let modules = composed.modules.par_iter().zip(settled).zip(&viewed);
-    let found = modules.map(|((unit, of), viewed)| kept.module(unit, &of.view, viewed, of.logic));
-    composed.structure(&found.collect::<Vec<_>>())
+    rayon::scope(|scope| {
+        let mut composed = Composed::new(kept, joints, units);
+        let settled = composed.settle(scope);
+        let module = |place: usize| {
+            let Settled { view, viewed } = &settled[place];
+            kept.module(&composed.modules[place], view, viewed)
+        };
+        // The head's cover is on its way. A thread that asks for it waits, so it is asked for last.
+        (0..settled.len()).into_par_iter().filter(|place| *place != HEAD).for_each(|place| {
+            module(place);
+        });
+        let found = (0..settled.len()).map(module);
+        composed.structure(&found.collect::<Vec<_>>())
+    })
 }
 
 fn bits(netlist: &Netlist) -> [usize; 2] {
@@ -102,9 +113,9 @@ impl<'k> Composed<'k> {
         Composed { kept, modules, first, drivers, takers, wires: Vec::new(), wired, gives, reads, outputs }
     }
 
-    fn settle(&mut self) -> Vec<Settled> {
+    fn settle(&mut self, scope: &Scope<'k>) -> Vec<Settled> {
         let joints = View { outside: true, family: self.kept.family, ..View::default() };
-        let joints = self.kept.viewed(&self.modules[0], &joints, &mut None);
+        let joints = self.kept.viewed(&self.modules[0], &joints);
         let mut wires = Vec::new();
         for (bit, gives) in &joints.ports.gives {
             self.gives[0][*bit as usize] = *gives;
@@ -136,12 +147,20 @@ impl<'k> Composed<'k> {
                 if settled[place].as_ref().is_some_and(|before| before.view == view) {
                     continue;
                 }
-                let mut logic = None;
-                let viewed = self.kept.viewed(&self.modules[place], &view, &mut logic);
+                let viewed = self.kept.viewed(&self.modules[place], &view);
                 if self.told(place, &viewed) {
                     (news, step) = (step, step + 1);
                 }
-                settled[place] = Some(Settled { view, viewed, logic });
+                if round == 0 && place == HEAD {
+                    let (kept, unit) = (self.kept, self.modules[place].clone());
+                    let (view, viewed) = (view.clone(), viewed.clone());
+                    scope.spawn(move |_| {
+                        kept.module(&unit, &view, &viewed);
+                    });
+                }
+                if let Some(before) = settled[place].replace(Settled { view, viewed }) {
+                    before.viewed.take_logic();
+                }
             }
             if looked.iter().all(|looked| *looked >= news) {
                 break;

@@ -6,11 +6,16 @@ use super::graph::{Lit, Node};
 /// Cuts kept of a node.
 const KEPT: usize = 5;
 const INPUTS: usize = 4;
+/// The leaf behind the last one.
+const NONE: u32 = u32::MAX;
+/// Flows no further apart are equal.
+const NEAR: f32 = 1e-4;
 
 /// A way to compute a node: a table of these.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug)]
 struct Cut {
-    leaves: [u32; INPUTS],
+    /// In order, then [`NONE`].
+    leaves: [u32; INPUTS + 1],
     len: u8,
     depth: u16,
     flow: f32,
@@ -44,39 +49,48 @@ impl Table {
 }
 
 impl Cut {
+    const EMPTY: Cut = Cut { leaves: [NONE; INPUTS + 1], len: 0, depth: 0, flow: 0.0, sign: 0 };
+
     fn leaves(&self) -> &[u32] {
         &self.leaves[..self.len as usize]
     }
 
-    fn of(node: u32) -> Cut {
-        Cut { leaves: [node, 0, 0, 0], len: 1, depth: 0, flow: 0.0, sign: 1 << (node & 31) }
+    /// The node itself.
+    fn of(node: u32, cost: Cost) -> Cut {
+        let Cost { depth, flow } = cost;
+        Cut {
+            leaves: [node, NONE, NONE, NONE, NONE],
+            len: 1,
+            depth: depth + 1,
+            flow: flow + 1.0,
+            sign: 1 << (node & 31),
+        }
     }
 
-    /// Both together, if they have no more than four leaves.
+    /// Makes the cut both of two together, if they have no more than four leaves; whether it did.
     #[inline]
-    fn joined(&self, other: &Cut) -> Option<Cut> {
-        let sign = self.sign | other.sign;
+    fn join(&mut self, a: &Cut, b: &Cut) -> bool {
+        let sign = a.sign | b.sign;
         if sign.count_ones() > INPUTS as u32 {
-            return None;
+            return false;
         }
-        let (a, b) = (&self.leaves, &other.leaves);
-        let (a_len, b_len) = (self.len as usize, other.len as usize);
         let (mut i, mut j, mut len) = (0, 0, 0);
-        let mut leaves = [0; INPUTS];
-        while i < a_len && j < b_len {
-            if len == INPUTS {
-                return None;
+        // A leaf of no node ends each.
+        loop {
+            let (x, y) = (a.leaves[i], b.leaves[j]);
+            let next = x.min(y);
+            if next == NONE {
+                break;
             }
-            let (x, y) = (a[i], b[j]);
-            leaves[len] = x.min(y);
+            if len == INPUTS {
+                return false;
+            }
+            self.leaves[len] = next;
             (i, j, len) = (i + usize::from(x <= y), j + usize::from(y <= x), len + 1);
         }
-        // One of the two has no more.
-        for leaf in a[i..a_len].iter().chain(&b[j..b_len]) {
-            *leaves.get_mut(len)? = *leaf;
-            len += 1;
-        }
-        Some(Cut { leaves, len: len as u8, depth: 0, flow: 0.0, sign })
+        self.leaves[len..].fill(NONE);
+        (self.len, self.sign) = (len as u8, sign);
+        true
     }
 
     fn within(&self, other: &Cut) -> bool {
@@ -84,6 +98,13 @@ impl Cut {
             && self.sign & !other.sign == 0
             && self.leaves().iter().all(|leaf| other.leaves().contains(leaf))
     }
+}
+
+/// What a node costs by its chosen cut: tables one behind another, and tables by reader.
+#[derive(Clone, Copy, Default)]
+struct Cost {
+    depth: u16,
+    flow: f32,
 }
 
 struct Mapper<'b> {
@@ -94,8 +115,7 @@ struct Mapper<'b> {
     /// By node: where its cuts stand.
     place: Vec<u32>,
     count: Vec<u8>,
-    depth: Vec<u16>,
-    flow: Vec<f32>,
+    cost: Vec<Cost>,
     /// Estimated readers.
     share: Vec<f32>,
     required: Vec<u16>,
@@ -170,11 +190,10 @@ pub(super) fn cover(built: &Built) -> Cover {
     let mut mapper = Mapper {
         nodes: &built.graph.nodes,
         live,
-        cuts: vec![[Cut::default(); KEPT]; cuts as usize],
+        cuts: vec![[Cut::EMPTY; KEPT]; cuts as usize],
         place,
         count: vec![0; count],
-        depth: vec![0; count],
-        flow: vec![0.0; count],
+        cost: vec![Cost::default(); count],
         share: vec![1.0; count],
         required: vec![u16::MAX; count],
         readers: vec![0; count],
@@ -221,32 +240,42 @@ impl Mapper<'_> {
                 continue;
             };
             let (a, b) = ((a >> 1) as usize, (b >> 1) as usize);
-            let mut best: [Cut; KEPT] = [Cut::default(); KEPT];
+            let mut best = [Cut::EMPTY; KEPT];
+            let mut cut = Cut::EMPTY;
             let mut kept = 0;
             let limit = if quickest { u16::MAX } else { self.required[index] };
-            let (own_a, own_b) = (Cut::of(a as u32), Cut::of(b as u32));
+            let (own_a, own_b) = (Cut::of(a as u32, self.cost[a]), Cut::of(b as u32, self.cost[b]));
             let (cuts_a, cuts_b) = (self.cuts_of(a), self.cuts_of(b));
             for i in 0..=cuts_a.len() {
                 let one = if i == 0 { &own_a } else { &cuts_a[i - 1] };
                 for j in 0..=cuts_b.len() {
                     let two = if j == 0 { &own_b } else { &cuts_b[j - 1] };
-                    let Some(mut cut) = one.joined(two) else { continue };
+                    // Both together are no quicker than either, and no smaller.
+                    let (depth, flow) = (one.depth.max(two.depth), one.flow.max(two.flow));
+                    let worse = |known: &Cut| match quickest {
+                        true => known.depth < depth,
+                        false => known.flow < flow - 2.0 * NEAR,
+                    };
+                    if depth > limit || (kept == KEPT && worse(&best[KEPT - 1])) {
+                        continue;
+                    }
+                    if !cut.join(one, two) {
+                        continue;
+                    }
                     let mut flow = 1.0;
                     let mut depth = 0;
                     for leaf in cut.leaves() {
-                        depth = depth.max(self.depth[*leaf as usize]);
-                        flow += self.flow[*leaf as usize];
+                        let cost = self.cost[*leaf as usize];
+                        depth = depth.max(cost.depth);
+                        flow += cost.flow;
                     }
                     (cut.depth, cut.flow) = (depth + 1, flow);
                     if cut.depth > limit {
                         continue;
                     }
-                    if best[..kept].iter().any(|known| known.within(&cut)) {
-                        continue;
-                    }
                     let before = |known: &Cut| {
                         let by_flow = |a: &Cut, b: &Cut| {
-                            a.flow < b.flow - 1e-4 || (a.flow < b.flow + 1e-4 && a.len <= b.len)
+                            a.flow < b.flow - NEAR || (a.flow < b.flow + NEAR && a.len <= b.len)
                         };
                         match quickest {
                             true => {
@@ -256,7 +285,7 @@ impl Mapper<'_> {
                         }
                     };
                     let place = best[..kept].iter().position(|known| !before(known)).unwrap_or(kept);
-                    if place == KEPT {
+                    if place == KEPT || best[..kept].iter().any(|known| known.within(&cut)) {
                         continue;
                     }
                     let end = kept.min(KEPT - 1);
@@ -270,8 +299,7 @@ impl Mapper<'_> {
             }
             self.cuts[self.place[index] as usize] = best;
             self.count[index] = kept as u8;
-            self.depth[index] = best[0].depth;
-            self.flow[index] = best[0].flow / self.share[index];
+            self.cost[index] = Cost { depth: best[0].depth, flow: best[0].flow / self.share[index] };
         }
     }
 
@@ -279,7 +307,7 @@ impl Mapper<'_> {
     fn choose(&mut self) {
         self.readers.fill(0);
         self.required.fill(u16::MAX);
-        let deepest = self.roots.iter().map(|root| self.depth[(root >> 1) as usize]).max().unwrap_or(0);
+        let deepest = self.roots.iter().map(|root| self.cost[(root >> 1) as usize].depth).max().unwrap_or(0);
         for root in &self.roots {
             let node = (root >> 1) as usize;
             self.readers[node] += 1;
@@ -306,7 +334,7 @@ impl Mapper<'_> {
         let tables: Vec<Option<Table>> = (0..self.nodes.len())
             .map(|index| {
                 let cut = self.cuts_of(index).first().filter(|_| self.readers[index] > 0)?;
-                Some(Table { leaves: cut.leaves, len: cut.len })
+                Some(Table { leaves: std::array::from_fn(|leaf| cut.leaves[leaf]), len: cut.len })
             })
             .collect();
         // What is wanted inverted: a table can give that, but not both, and what is no table has to be inverted by one.

@@ -63,6 +63,22 @@ impl Hasher for Quick {
 
 pub(super) type QuickMap<K, V> = HashMap<K, V, BuildHasherDefault<Quick>>;
 
+/// An AND of two literals, the lower one first, if that is no node of its own.
+fn simple_and(a: Lit, b: Lit) -> Option<Lit> {
+    match (a, b) {
+        (FALSE, _) => Some(FALSE),
+        (TRUE, _) => Some(b),
+        _ if a == b => Some(a),
+        _ if a == b ^ 1 => Some(FALSE),
+        _ => None,
+    }
+}
+
+/// Two literals as a key.
+fn pair(a: Lit, b: Lit) -> u64 {
+    u64::from(a) << 32 | u64::from(b)
+}
+
 /// The logic of a module.
 pub(super) struct Graph {
     pub nodes: Vec<Node>,
@@ -72,7 +88,8 @@ pub(super) struct Graph {
     /// The unit that nodes are made for now.
     pub unit: u8,
     pub family: Family,
-    same: QuickMap<(Lit, Lit), Lit>,
+    /// By the inputs of an AND, the lower one first: the AND.
+    same: QuickMap<u64, Lit>,
     /// By node: it is `if .0 { .1 } else { .2 }`.
     pub choices: QuickMap<u32, (Lit, Lit, Lit)>,
 }
@@ -99,19 +116,30 @@ impl Graph {
 
     pub fn and(&mut self, a: Lit, b: Lit) -> Lit {
         let (a, b) = (a.min(b), a.max(b));
-        match (a, b) {
-            (FALSE, _) => return FALSE,
-            (TRUE, _) => return b,
-            _ if a == b => return a,
-            _ if a == b ^ 1 => return FALSE,
-            _ => {}
+        if let Some(simple) = simple_and(a, b) {
+            return simple;
         }
-        if let Some(known) = self.same.get(&(a, b)) {
-            return *known;
+        let next = self.nodes.len() as Lit * 2;
+        let lit = *self.same.entry(pair(a, b)).or_insert(next);
+        if lit == next {
+            self.node(Node::And(a, b));
         }
-        let lit = self.node(Node::And(a, b));
-        self.same.insert((a, b), lit);
         lit
+    }
+
+    /// What the ANDs are where other nodes are known to be equal, by node.
+    pub fn follow(&self, is: &mut [Lit]) {
+        let mut new: QuickMap<u64, Lit> = QuickMap::default();
+        for (index, node) in self.nodes.iter().enumerate() {
+            let Node::And(a, b) = node else { continue };
+            let [new_a, new_b] = [a, b].map(|lit| is[(lit >> 1) as usize] ^ (lit & 1));
+            if (new_a, new_b) != (*a, *b) {
+                let (a, b) = (new_a.min(new_b), new_a.max(new_b));
+                let known = simple_and(a, b).or_else(|| self.same.get(&pair(a, b)).copied());
+                let known = known.unwrap_or_else(|| *new.entry(pair(a, b)).or_insert(index as Lit * 2));
+                is[index] = is[(known >> 1) as usize] ^ (known & 1);
+            }
+        }
     }
 
     pub fn or(&mut self, a: Lit, b: Lit) -> Lit {

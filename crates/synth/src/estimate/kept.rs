@@ -32,8 +32,17 @@ impl Unit {
 /// A module as it is looked at.
 pub(super) struct Viewed {
     pub ports: Ports,
+    /// Until the module is worked out, or looked at otherwise.
+    logic: Mutex<Option<Logic>>,
     /// Set when somebody asks for it.
     module: OnceLock<Module>,
+}
+
+impl Viewed {
+    /// Takes the logic out, which needs much memory.
+    pub fn take_logic(&self) -> Option<Logic> {
+        open(&self.logic).take()
+    }
 }
 
 /// Modules of the machines that were estimated so far. A module that several machines have is worked out once.
@@ -83,29 +92,24 @@ impl Kept {
         }
     }
 
-    /// A module looked at so; its logic stays with the caller if it had to be worked out.
-    pub(super) fn viewed(&self, unit: &Unit, view: &View, logic: &mut Option<Logic>) -> Arc<Viewed> {
-        *logic = None;
+    /// A module looked at so.
+    pub(super) fn viewed(&self, unit: &Unit, view: &View) -> Arc<Viewed> {
         let known = open(&self.modules).get(&unit.number).and_then(|views| views.get(view)).cloned();
         known.unwrap_or_else(|| {
-            let made = Logic::of(&unit.netlist, view);
-            let viewed = Arc::new(Viewed { ports: made.ports(view), module: OnceLock::new() });
-            *logic = Some(made);
+            let logic = Logic::of(&unit.netlist, view);
+            let ports = logic.ports(view);
+            let viewed = Arc::new(Viewed { ports, logic: Mutex::new(Some(logic)), module: OnceLock::new() });
             open(&self.modules).entry(unit.number).or_default().insert(view.clone(), viewed.clone());
             viewed
         })
     }
 
-    /// What a module comes to; `logic` is that of the module if it was worked out.
-    pub(super) fn module<'v>(
-        &self,
-        unit: &Unit,
-        view: &View,
-        viewed: &'v Viewed,
-        logic: Option<Logic>,
-    ) -> &'v Module {
-        let logic = || logic.unwrap_or_else(|| Logic::of(&unit.netlist, view));
-        viewed.module.get_or_init(|| logic().module(&self.delays))
+    /// What a module comes to.
+    pub(super) fn module<'v>(&self, unit: &Unit, view: &View, viewed: &'v Viewed) -> &'v Module {
+        viewed.module.get_or_init(|| {
+            let logic = viewed.take_logic();
+            logic.unwrap_or_else(|| Logic::of(&unit.netlist, view)).module(&self.delays)
+        })
     }
 
     /// A unit of a machine, built if no machine before had the same.

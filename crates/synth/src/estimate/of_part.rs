@@ -7,8 +7,9 @@ use super::reads::JOINTS;
 use super::structure::Structure;
 use super::words::Words;
 use crate::part::Part;
-use edgewalk_machine::Plan;
+use edgewalk_machine::{Plan, UnitSpec};
 use edgewalk_netlist::{BuildErrors, Netlist};
+use rayon::prelude::*;
 use std::sync::Arc;
 
 impl Part {
@@ -38,12 +39,13 @@ impl Part {
 
 /// Of a machine: a unit that a machine before had too is not even built.
 fn machine(plan: &Plan, kept: &Kept) -> Result<Structure, BuildErrors> {
-    let mut units = Vec::new();
-    for spec in plan.units() {
+    let specs: Vec<_> = plan.units().collect();
+    let unit = |spec: &&UnitSpec| {
         let build =
             edgewalk_rtl::units::builder(spec.name).expect("a test finds a builder for every declared unit");
-        units.push(kept.unit(spec.name, plan, || build(plan))?);
-    }
+        kept.unit(spec.name, plan, || build(plan))
+    };
+    let units = specs.par_iter().map(unit).collect::<Result<Vec<_>, _>>()?;
     let join = || {
         let netlists = plan.units().zip(&units).map(|(spec, unit)| (spec, unit.netlist.clone()));
         edgewalk_rtl::join(plan, netlists.collect())
