@@ -4,6 +4,7 @@
 use crate::support::{edgewalk, run};
 use serde_json::Value;
 use std::path::Path;
+use std::sync::LazyLock;
 
 /// A machine that Yosys maps in a few seconds.
 const SMALL: [&str; 24] = [
@@ -33,9 +34,21 @@ const SMALL: [&str; 24] = [
     "memory.latency=1",
 ];
 
+/// Gates of [`SMALL`], mapped once for all tests here.
+static GATES: LazyLock<&str> = LazyLock::new(|| {
+    let cache = concat!(env!("CARGO_TARGET_TMPDIR"), "/energy");
+    std::fs::create_dir_all(cache).unwrap();
+    energy_of(Path::new(cache), cache, &[]);
+    cache
+});
+
 /// What the command prints for 300 triangles of the sphere, with these words more.
 fn energy(folder: &Path, more: &[&str]) -> String {
-    let words = [&["energy", "sphere", "--triangles", "300", "--cache", "cache"][..], &SMALL, more].concat();
+    energy_of(folder, *GATES, more)
+}
+
+fn energy_of(folder: &Path, cache: &str, more: &[&str]) -> String {
+    let words = [&["energy", "sphere", "--triangles", "300", "--cache", cache][..], &SMALL, more].concat();
     let output = edgewalk(folder, &words).output().unwrap();
     assert!(output.status.success(), "{words:?}: {}", String::from_utf8_lossy(&output.stderr));
     String::from_utf8(output.stdout).unwrap()
@@ -120,7 +133,7 @@ fn in_the_table_of_features(folder: &Path) {
     let settings: Vec<&str> = SMALL.iter().copied().filter(|word| *word != "--set").collect();
     let machine = format!("default,{}", settings.join(","));
     let flat = format!("{machine}:constant");
-    let words = ["compare", &machine, &flat, "sphere", "--energy", "300", "--cache", "cache"];
+    let words = ["compare", &machine, &flat, "sphere", "--energy", "300", "--cache", *GATES];
     let told = edgewalk(folder, &[&words[..], &["--json"]].concat()).output().unwrap();
     assert!(told.status.success(), "{}", String::from_utf8_lossy(&told.stderr));
     let told: Value = serde_json::from_slice(&told.stdout).unwrap();

@@ -4,12 +4,13 @@
 
 use edgewalk_golden::{Fill, Rays, ShadowMaps, Weights, draw, fragments};
 use edgewalk_scene::{Attenuation, Light, LightView, Scene, ShadeMode};
-use glam::{DVec2, DVec3};
+use glam::{DVec2, DVec3, DVec4};
 use std::collections::HashMap;
 use std::path::Path;
 
 const SCREEN: (u32, u32) = (240, 180);
 const TEXELS: u32 = 512;
+const SIDE: f64 = TEXELS as f64;
 const SUBPIXEL_BITS: u32 = 8;
 
 /// A visible point: where, on which face, and the unit normal of that face towards the viewer.
@@ -95,10 +96,16 @@ fn edges(scene: &Scene, light: &Light) -> [Vec<[DVec3; 2]>; 2] {
 fn by_texel(view: &LightView, edges: &[[DVec3; 2]]) -> HashMap<[i64; 2], Vec<DVec2>> {
     let mut found: HashMap<[i64; 2], Vec<DVec2>> = HashMap::new();
     for [a, b] in edges {
+        // Both ends beyond one side of the map: so is all between them.
+        let ends = [*a, *b].map(|end| view.texels(end));
+        let sides: [fn(DVec4) -> f64; 4] = [|p| -p.x, |p| p.x - SIDE * p.w, |p| -p.y, |p| p.y - SIDE * p.w];
+        if sides.iter().any(|beyond| ends.iter().all(|end| beyond(*end) > 0.0)) {
+            continue;
+        }
         let length = match [view.place(*a), view.place(*b)] {
             [Some(a), Some(b)] => a.texel.distance(b.texel),
             // An edge that leaves the map may be long in it.
-            _ => 8.0 * f64::from(TEXELS),
+            _ => 8.0 * SIDE,
         };
         let steps = (length * 4.0).ceil().max(1.0) as u32;
         for k in 0..=steps {

@@ -99,8 +99,11 @@ fn every_unit_declares_what_is_to_be_seen_of_it() {
     let mut rng = Pcg64Mcg::seed_from_u64(81);
     let (mut units, mut links, mut named, mut met) = (0, 0, 0, BTreeSet::new());
     for plan in machines(100, &mut rng) {
-        let mut seen = View::new();
-        watch(&plan, &[random_triangle(&plan, 20.0, &mut rng)], Stalls::NONE, |view| seen = view.clone());
+        let mut seen = None;
+        watch(&plan, &[random_triangle(&plan, 20.0, &mut rng)], Stalls::NONE, |view| {
+            seen.get_or_insert_with(|| view.clone()); // names are those of every cycle
+        });
+        let seen = seen.expect("a cycle");
         let structure = seen.structure();
         let declared: Vec<&str> = plan.units().map(|unit| unit.name).collect();
         let shown: Vec<&str> = structure.units.iter().map(|unit| unit.name.as_str()).collect();

@@ -14,6 +14,8 @@ pub(super) type Slot = u32;
 pub(super) struct Instruction {
     op: Op,
     slots: [Slot; 3],
+    /// How many of the slots the operator reads.
+    operands: usize,
     widths: [u32; 3],
     width: u32,
     pub dst: Slot,
@@ -36,12 +38,57 @@ pub(super) struct FlatMemory {
     pub reads: Vec<(Slot, Slot, Slot)>,
 }
 
+/// What reads each slot: places of instructions, and behind them those of registers.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Readers {
+    /// By slot: where its readers begin in `places`. The last number is that of all.
+    first: Vec<u32>,
+    places: Vec<u32>,
+    /// The place of the first register, a multiple of 64.
+    pub registers: usize,
+    /// One behind the last place.
+    pub end: usize,
+}
+
+impl Readers {
+    fn new(slots: usize, instructions: &[Instruction], registers: &[FlatRegister]) -> Readers {
+        let behind = instructions.len().next_multiple_of(64);
+        let mut pairs: Vec<(Slot, u32)> = Vec::new();
+        for (place, instruction) in instructions.iter().enumerate() {
+            let operands = &instruction.slots[..instruction.operands];
+            pairs.extend(operands.iter().map(|slot| (*slot, place as u32)));
+        }
+        for (place, register) in registers.iter().enumerate() {
+            let operands = register.updates.iter().flat_map(|(when, value)| when.iter().chain([value]));
+            let operands = operands.chain(register.reset.map(|_| &RST));
+            pairs.extend(operands.map(|slot| (*slot, (behind + place) as u32)));
+        }
+        pairs.sort_unstable();
+        pairs.dedup();
+        let mut first = vec![0; slots + 1];
+        pairs.iter().for_each(|(slot, _)| first[*slot as usize + 1] += 1);
+        for slot in 1..=slots {
+            first[slot] += first[slot - 1];
+        }
+        let places = pairs.into_iter().map(|(_, place)| place).collect();
+        Readers { first, places, registers: behind, end: behind + registers.len() }
+    }
+
+    /// Readers of one slot. An instruction among them stands behind the one that computes the slot.
+    #[inline(always)]
+    pub fn of(&self, slot: Slot) -> &[u32] {
+        let slot = slot as usize;
+        &self.places[self.first[slot] as usize..self.first[slot + 1] as usize]
+    }
+}
+
 /// Everything a simulator needs; `values` and `widths` by slot.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Flat {
     pub values: Vec<u128>,
     pub widths: Vec<u32>,
     pub instructions: Vec<Instruction>,
+    pub readers: Readers,
     pub registers: Vec<FlatRegister>,
     pub memories: Vec<FlatMemory>,
     /// By slot: it never changes.
@@ -71,7 +118,8 @@ impl Instruction {
         let mut slots = [RST; 3];
         slots.iter_mut().zip(operands).for_each(|(to, from)| *to = *from);
         let widths_of = slots.map(|slot| widths[slot as usize]);
-        Instruction { op, slots, widths: widths_of, dst, width: widths[dst as usize] }
+        let (operands, width) = (operands.len(), widths[dst as usize]);
+        Instruction { op, slots, operands, widths: widths_of, dst, width }
     }
 
     /// The result, from the values of all slots.
@@ -239,6 +287,7 @@ impl Builder {
             }
         }
         flat.constant = constant;
+        flat.readers = Readers::new(flat.values.len(), &flat.instructions, &flat.registers);
         self.flat
     }
 }

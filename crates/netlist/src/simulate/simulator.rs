@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use super::flatten::{Flat, RST, Slot};
+use super::flatten::{Flat, RST, Readers, Slot};
 use crate::netlist::Netlist;
 use crate::ops::mask;
 
@@ -13,10 +13,49 @@ pub struct Simulator {
     flat: Flat,
     /// The top module's inputs, with `rst`.
     inputs: BTreeMap<String, Slot>,
-    /// The next value of each register and each memory output, in order, between computing and taking it.
-    next: Vec<u128>,
-    /// An input or a register changed since the instructions were computed.
-    stale: bool,
+    /// Registers and memory outputs that take a value, between computing and taking it.
+    next: Vec<(Slot, u128)>,
+    pending: Pending,
+}
+
+/// Instructions and registers that read a value which changed since they were computed; all of them at the start.
+#[derive(Clone, Debug)]
+struct Pending {
+    /// A bit a place of [`Readers`].
+    bits: Vec<u64>,
+    /// There may be instructions among them.
+    any: bool,
+}
+
+impl Pending {
+    fn all(instructions: usize, readers: &Readers) -> Pending {
+        let mut pending = Pending { bits: vec![0; readers.end.div_ceil(64)], any: true };
+        (0..instructions).chain(readers.registers..readers.end).for_each(|place| pending.insert(place));
+        pending
+    }
+
+    #[inline(always)]
+    fn insert(&mut self, place: usize) {
+        self.bits[place / 64] |= 1 << (place % 64);
+    }
+
+    /// Takes out the first of 64 places.
+    #[inline(always)]
+    fn take(&mut self, word: usize) -> Option<usize> {
+        let bits = self.bits[word];
+        self.bits[word] = bits & bits.wrapping_sub(1);
+        (bits != 0).then(|| word * 64 + bits.trailing_zeros() as usize)
+    }
+}
+
+/// Gives a slot a value; who reads it is computed anew if that is another.
+#[inline(always)]
+fn put(values: &mut [u128], readers: &Readers, pending: &mut Pending, slot: Slot, value: u128) {
+    let before = std::mem::replace(&mut values[slot as usize], value);
+    if before != value {
+        readers.of(slot).iter().for_each(|place| pending.insert(*place as usize));
+        pending.any = true;
+    }
 }
 
 /// An input of the top module.
@@ -60,7 +99,12 @@ impl Simulator {
             .chain(netlist.has_reset.then_some("rst"))
             .filter_map(|name| Some((name.to_string(), *flat.names.get(name)?)))
             .collect();
-        Simulator { flat, inputs, next: Vec::new(), stale: true }
+        Simulator {
+            pending: Pending::all(flat.instructions.len(), &flat.readers),
+            flat,
+            inputs,
+            next: Vec::new(),
+        }
     }
 
     /// The input `name` of the top module; `rst` is one of them if there is a register with reset.
@@ -104,9 +148,9 @@ impl Simulator {
 
     /// Sets an input; bits beyond its width are dropped, as by a wire.
     pub fn set(&mut self, input: InputId, value: u128) {
-        let slot = input.0 as usize;
-        self.flat.values[slot] = value & mask(self.flat.widths[slot]);
-        self.stale = true;
+        let Flat { values, widths, readers, .. } = &mut self.flat;
+        let value = value & mask(widths[input.0 as usize]);
+        put(values, readers, &mut self.pending, input.0, value);
     }
 
     /// Sets an input by name.
@@ -156,35 +200,46 @@ impl Simulator {
 
     /// Computes everything that follows from inputs and registers, if anything changed. Reading a signal does it too.
     pub fn eval(&mut self) {
-        if !std::mem::replace(&mut self.stale, false) {
+        if !std::mem::replace(&mut self.pending.any, false) {
             return;
         }
-        let Flat { values, instructions, .. } = &mut self.flat;
-        for instruction in instructions.iter() {
-            values[instruction.dst as usize] = instruction.compute(values);
+        let Flat { values, instructions, readers, .. } = &mut self.flat;
+        // In order: an instruction only makes later ones pending.
+        for word in 0..readers.registers / 64 {
+            while let Some(place) = self.pending.take(word) {
+                let value = instructions[place].compute(values);
+                put(values, readers, &mut self.pending, instructions[place].dst, value);
+            }
         }
+        self.pending.any = false;
     }
 
     /// One rising edge of `clk`.
     pub fn tick(&mut self) {
         self.eval();
-        let Flat { values, registers, memories, .. } = &mut self.flat;
+        let Flat { values, registers, memories, readers, .. } = &mut self.flat;
         let is_set = |slot: Slot| values[slot as usize] == 1;
         let reset = is_set(RST);
         self.next.clear();
-        for register in registers.iter() {
-            let update = register.updates.iter().rev().find(|(when, _)| when.is_none_or(is_set));
-            self.next.push(match (reset, register.reset, update) {
-                (true, Some(value), _) => value,
-                (_, _, Some((_, value))) => values[*value as usize],
-                (_, _, None) => values[register.q as usize],
-            });
+        // A register that reads what it read before keeps its value.
+        for word in readers.registers / 64..self.pending.bits.len() {
+            while let Some(place) = self.pending.take(word) {
+                let register = &registers[place - readers.registers];
+                let update = register.updates.iter().rev().find(|(when, _)| when.is_none_or(is_set));
+                let next = match (reset, register.reset, update) {
+                    (true, Some(value), _) => value,
+                    (_, _, Some((_, value))) => values[*value as usize],
+                    (_, _, None) => continue,
+                };
+                self.next.push((register.q, next));
+            }
         }
         for memory in memories.iter_mut() {
             let index = |addr: Slot| usize::try_from(values[addr as usize]).unwrap_or(usize::MAX);
             for (en, addr, q) in &memory.reads {
-                let word = || memory.words.get(index(*addr)).copied().unwrap_or(0);
-                self.next.push(if is_set(*en) { word() } else { values[*q as usize] });
+                if is_set(*en) {
+                    self.next.push((*q, memory.words.get(index(*addr)).copied().unwrap_or(0)));
+                }
             }
             for (en, addr, data) in &memory.writes {
                 if is_set(*en)
@@ -194,11 +249,8 @@ impl Simulator {
                 }
             }
         }
-        let outputs = memories.iter().flat_map(|memory| memory.reads.iter().map(|(_, _, q)| *q));
-        let slots = registers.iter().map(|register| register.q).chain(outputs);
-        for (slot, next) in slots.zip(&self.next) {
-            values[slot as usize] = *next;
+        for (slot, next) in &self.next {
+            put(values, readers, &mut self.pending, *slot, *next);
         }
-        self.stale = true;
     }
 }

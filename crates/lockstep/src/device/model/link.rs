@@ -11,6 +11,8 @@ use edgewalk_model::WordIn;
 use edgewalk_model::ports::Held;
 use edgewalk_model::tokens::Sourced;
 use edgewalk_model::word_memory::Ask;
+use std::borrow::Cow;
+use std::cell::RefCell;
 use std::ops::Range;
 
 /// Where a unit's ports are to be found: it alone, or inside the machine.
@@ -98,7 +100,12 @@ pub struct TriangleTaker {
     triangles: Triangles,
     /// The words taken of a triangle that comes word by word.
     taken: Vec<u128>,
+    /// The token that was read last, and its triangle: most tokens stand at the port for many cycles.
+    seen: RefCell<(Vec<u128>, Tagged)>,
 }
+
+/// A triangle and its tag.
+type Tagged = ([PortVertex; 3], u32);
 
 impl TriangleTaker {
     pub fn find(scope: Scope) -> Result<TriangleTaker, NoPlace> {
@@ -106,29 +113,39 @@ impl TriangleTaker {
         let (_, link) = scope.link(takes.as_ref().map_or("", |link| link.name))?;
         let triangles =
             Triangles::of(scope.plan, link).ok_or_else(|| scope.missing("a field of a triangle"))?;
-        Ok(TriangleTaker { link: link.clone(), triangles, taken: Vec::new() })
+        let nothing = vec![0; link.whole().count()];
+        let seen = RefCell::new((nothing.clone(), triangles.unpack(&nothing)));
+        Ok(TriangleTaker { link: link.clone(), triangles, taken: Vec::new(), seen })
     }
 
     /// The triangle whose last word is offered; before that one of which only the words so far are known.
-    fn whole(&self, ports: &PortValues) -> Vec<u128> {
+    fn whole<'p>(&self, ports: &'p PortValues) -> Cow<'p, [u128]> {
         let ([word, beside @ ..], Some(field)) =
             (self.link.token(ports), self.link.words.get(self.taken.len()))
         else {
-            return self.link.token(ports).to_vec();
+            return Cow::Borrowed(self.link.token(ports));
         };
         let mut whole = self.taken.clone();
         whole.push(word & (u128::MAX >> (128 - field.width())));
         whole.resize(self.link.words.len(), 0);
         whole.extend(beside);
-        whole
+        Cow::Owned(whole)
     }
 }
 
 /// A triangle and its tag; of one that comes word by word as soon as a word is offered. In a reset none is taken.
-impl Takes<([PortVertex; 3], u32)> for TriangleTaker {
-    fn token(&self, ports: &PortValues) -> Option<([PortVertex; 3], u32)> {
-        let offered = ports.is_high(self.link.valid) && !ports.rst;
-        offered.then(|| self.triangles.unpack(&self.whole(ports)))
+impl Takes<Tagged> for TriangleTaker {
+    fn token(&self, ports: &PortValues) -> Option<Tagged> {
+        if !ports.is_high(self.link.valid) || ports.rst {
+            return None;
+        }
+        let whole = self.whole(ports);
+        let mut seen = self.seen.borrow_mut();
+        if *seen.0 != *whole {
+            let triangle = self.triangles.unpack(&whole);
+            *seen = (whole.into_owned(), triangle);
+        }
+        Some(seen.1)
     }
 
     fn clock(&mut self, ports: &PortValues) {
