@@ -91,6 +91,19 @@ fn memory_reads_the_old_word_and_holds() {
 }
 
 #[test]
+fn logic_behind_a_memory_follows_the_word_that_is_read() {
+    let m = Module::new("ram", "");
+    let (we, addr, data) = (m.input("we", 1), m.input("addr", 2), m.input("data", 4));
+    let ram = m.memory("words", 2, 4, 4).starts(3).write(we, addr, data);
+    m.output("inverse", !ram.read(m.lit(1, 1), addr));
+    let mut sim = simulator(&finish(m));
+    // Nothing but the memory's output changes from the second clock on.
+    assert_eq!(step(&mut sim, &[("we", 1), ("addr", 1), ("data", 5)], "inverse"), 12, "the word before");
+    assert_eq!(step(&mut sim, &[], "inverse"), 10);
+    assert_eq!(step(&mut sim, &[], "inverse"), 10);
+}
+
+#[test]
 fn words_nobody_may_read_yet_are_another_each() {
     let m = Module::new("ram", "");
     let ram = m.memory("words", 2, 4, 5).write(m.input("we", 1), m.input("wa", 2), m.input("data", 5));
