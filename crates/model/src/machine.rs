@@ -52,6 +52,8 @@ pub struct Model<const C: usize> {
     blend: Option<Blend<C>>,
     counters: Counters,
     events: Events,
+    /// Nothing is held behind SETUP, as in the cycle before.
+    rests: bool,
 }
 
 /// A unit that no machine of few channels has: nothing of it is built for those.
@@ -77,6 +79,7 @@ impl<const C: usize> Model<C> {
             blend: plan.blend.is_there().then(|| Blend::new(plan)),
             counters: Counters::default(),
             events: Events::default(),
+            rests: false,
         };
         model.offers = model.room();
         model
@@ -160,12 +163,13 @@ impl<const C: usize> Model<C> {
     /// Nothing is held behind SETUP.
     #[inline]
     fn at_rest(&self) -> bool {
-        !self.walker.running()
-            && !self.span.line_held()
-            && self.span.span().is_none()
-            && !self.pixel.active()
-            && !self.pixel.occupied()
-            && !self.in_flight()
+        self.rests
+            || !self.walker.running()
+                && !self.span.line_held()
+                && self.span.span().is_none()
+                && !self.pixel.active()
+                && !self.pixel.occupied()
+                && !self.in_flight()
     }
 
     /// A fragment is in flight behind PIXEL.
@@ -187,8 +191,13 @@ impl<const C: usize> Model<C> {
             self.offers.parts().1.fill(Ask::default());
         }
         let light_pass = C > FEW && inputs.shadow.light_pass;
-        let prim_ready = self.walker.prim_ready(self.setup.prim(), false);
-        self.walker.step(self.setup.prim(), false, false, light_pass, &mut self.events);
+        let prim = self.setup.prim();
+        let prim_ready = self.walker.prim_ready(prim, false);
+        // EDGE that rested a cycle changes only by a prim.
+        if C > FEW || prim.is_some() || !self.rests {
+            self.walker.step(prim, false, false, light_pass, &mut self.events);
+        }
+        self.rests = !self.walker.running();
         let triangle = self.setup.takes(inputs.tri.is_some());
         self.setup.step(inputs.tri, prim_ready, light_pass, &mut self.events);
         if triangle {
