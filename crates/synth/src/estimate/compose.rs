@@ -116,6 +116,7 @@ impl<'k> Composed<'k> {
     fn settle(&mut self, scope: &Scope<'k>) -> Vec<Settled> {
         let joints = View { outside: true, family: self.kept.family, ..View::default() };
         let joints = self.kept.viewed(&self.modules[0], &joints);
+        joints.take_logic(); // only its ports are wanted
         let mut wires = Vec::new();
         for (bit, gives) in &joints.ports.gives {
             self.gives[0][*bit as usize] = *gives;
