@@ -198,7 +198,7 @@ where
         for (place, sorted) in batch.iter_mut().enumerate() {
             let Some((number, triangle)) = triangles.next() else { return Ok(place) };
             plan.accept(triangle.borrow(), number)?;
-            *sorted = setup.sort(triangle.borrow());
+            setup.sort(triangle.borrow(), sorted);
         }
         Ok(batch.len())
     }

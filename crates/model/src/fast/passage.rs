@@ -14,6 +14,7 @@ use super::setup::Setup;
 use super::walk::Span;
 use crate::counters::Counters;
 use crate::setup::SetupClocks;
+use crate::setup::sort::Sorted;
 use crate::tokens::{FEW, Prim};
 use edgewalk_machine::{Plan, PortVertex};
 
@@ -169,7 +170,9 @@ impl Passage {
         let setup = Setup::new(plan);
         let clocks = |(triangle, number): (&[PortVertex; 3], u64)| {
             plan.accept(triangle, number)?;
-            Ok(setup.increments(&setup.sort(triangle), &mut Prim::default()).0)
+            let mut sorted = Sorted::default();
+            setup.sort(triangle, &mut sorted);
+            Ok(setup.increments(&sorted, &mut Prim::default()).0)
         };
         triangles.iter().zip(0..).map(clocks).collect()
     }

@@ -10,7 +10,7 @@ use crate::setup::clocks::Timing;
 use crate::setup::edges::{Parts, Screen};
 use crate::setup::sort::{Corner, Sorted};
 use crate::setup::{self, SetupClocks};
-use crate::tokens::{EdgeWalk, FEW, Prim, Source, per_channel, sign_extend, word_masks};
+use crate::tokens::{EdgeWalk, FEW, Prim, per_channel, sign_extend, word_masks};
 use edgewalk_machine::{EdgeKind, Fill, Plan, PortVertex, Role};
 use std::array::from_fn;
 
@@ -25,6 +25,8 @@ pub(super) struct Setup {
     plain: bool,
     /// The machine has POLY.
     polygon: bool,
+    /// The port takes lines or parts of polygons: not all is a triangle.
+    roles: bool,
     width: i64,
     pub(super) height: i64,
     /// Bits of a line.
@@ -64,6 +66,7 @@ impl Setup {
             timing: Timing::new(plan),
             plain: !exact || difference_bits + w.difference > 62,
             polygon: plan.polygon.is_there(),
+            roles: plan.polygon.is_there() || plan.polygon.has_lines(),
             width: i64::from(plan.width),
             height: i64::from(plan.height),
             line_mask: u32::MAX >> (32 - w.line),
@@ -84,8 +87,12 @@ impl Setup {
 
     /// A triangle's vertices as SETUP sees them.
     #[inline(always)]
-    pub(super) fn sort(&self, vertices: &[PortVertex; 3]) -> Sorted<FEW> {
-        if self.plain { Sorted::new(&self.plan, vertices) } else { self.sorted(vertices) }
+    pub(super) fn sort(&self, vertices: &[PortVertex; 3], sorted: &mut Sorted<FEW>) {
+        if self.plain {
+            *sorted = Sorted::new(&self.plan, vertices);
+        } else {
+            self.sort_short(vertices, sorted);
+        }
     }
 
     /// The clocks of a triangle, and whether it is drawn; if so, `prim` gets its increments, without tag and number.
@@ -95,7 +102,7 @@ impl Setup {
             _ if self.plain => Err(TooLong),
             Role::Line { .. } => Err(TooLong),
             _ if self.polygon => self.token(sorted, prim),
-            _ => self.short(sorted, prim),
+            _ => self.of_triangle(sorted, prim),
         };
         if let Ok(done) = short {
             return done;
@@ -105,9 +112,26 @@ impl Setup {
         (clocks, culled.is_none())
     }
 
-    /// Like `increments`, in 64 bits.
+    /// Like `increments`, of a machine without POLY, in 64 bits.
     #[inline(always)]
-    fn short(&self, sorted: &Sorted<FEW>, prim: &mut Prim<FEW>) -> Result<(SetupClocks, bool), TooLong> {
+    fn of_triangle(
+        &self,
+        sorted: &Sorted<FEW>,
+        prim: &mut Prim<FEW>,
+    ) -> Result<(SetupClocks, bool), TooLong> {
+        let (parts, clocks, is_drawn) = self.short(sorted, prim)?;
+        // One place for all three ends: a program's clocks are long to count.
+        let of_program = self.timing.of_program(Screen::picture(&self.plan), sorted, &parts, prim);
+        Ok((of_program.unwrap_or(clocks), is_drawn))
+    }
+
+    /// Like `of_triangle`, with the clocks of a parallel SETUP.
+    #[inline(always)]
+    fn short(
+        &self,
+        sorted: &Sorted<FEW>,
+        prim: &mut Prim<FEW>,
+    ) -> Result<(Parts, SetupClocks, bool), TooLong> {
         let [a, b, c] = &sorted.corners;
         let (du1, dv1, du2, dv2) = (b.u - a.u, b.v - a.v, c.u - a.u, c.v - a.v);
         let [top, knee, bottom] = [a, b, c].map(|corner| -(-corner.v >> self.t)); // rounded up
@@ -115,18 +139,15 @@ impl Setup {
         let end = bottom.min(self.height).max(j0);
         let j1 = knee.clamp(j0, end);
         let [left, right] = self.columns([a.u, b.u, c.u]);
-        if end == j0 || right <= left {
-            let parts = Parts { first: [j0, j1], lines: [(j1 - j0) as u32, (end - j1) as u32] };
-            let clocks = self.of_program(sorted, &parts, prim);
-            return Ok((clocks.unwrap_or(self.timing.culled()), false));
-        }
         let parts = Parts { first: [j0, j1], lines: [(j1 - j0) as u32, (end - j1) as u32] };
+        if end == j0 || right <= left {
+            return Ok((parts, self.timing.culled(), false));
+        }
         let area = du1 * dv2 - du2 * dv1;
         let scale = self.timing.scale(sorted, area);
         let phase1 = self.timing.phase1(sorted, &parts, scale);
         if area == 0 {
-            let clocks = self.of_program(sorted, &parts, prim);
-            return Ok((clocks.unwrap_or(SetupClocks { phase1, phase2: 0 }), false));
+            return Ok((parts, SetupClocks { phase1, phase2: 0 }, false));
         }
         let line = if j1 > j0 { j0 } else { j1 };
         let major_right = area < 0;
@@ -163,31 +184,16 @@ impl Setup {
             return Err(TooLong);
         }
         let word = |values: [i64; 4]| -> Words { from_fn(|i| values[i] as u64 & self.word_masks[i]) };
-        *prim = Prim {
-            line: line as u32,
-            lines: parts.lines,
-            thin: false, // a line is left to the plain setup
-            flat: false,
-            major_right,
-            sides: 0, // no POLY here
-            ends: false,
-            void: false,
-            start_pixel: [0; 2],
-            heights: [0; 3],
-            down: [0; 2],
-            colours: [[0; 3]; 3],
-            major,
-            minor,
-            start: [self.first_words(a, start), [0; 4]],
-            delta: [word(d0), word(d1)],
-            gradient: word(gx.map(turned)),
-            kt: 0,     // no BLEND here
-            record: 0, // no TERM here
-            source: Source::default(),
-        };
+        // The fields of POLY, BLEND and TERM keep what they have: nothing here. A line, which the plain setup writes, has more.
+        (prim.line, prim.lines) = (line as u32, parts.lines);
+        (prim.thin, prim.flat) = (false, false);
+        prim.major_right = major_right;
+        (prim.major, prim.minor) = (major, minor);
+        prim.start[0] = self.first_words(a, start);
+        prim.delta = [word(d0), word(d1)];
+        prim.gradient = word(gx.map(turned));
         let phase2 = self.timing.phase2(sorted, &parts, prim, (area, scale));
-        let clocks = self.of_program(sorted, &parts, prim);
-        Ok((clocks.unwrap_or(SetupClocks { phase1, phase2 }), true))
+        Ok((parts, SetupClocks { phase1, phase2 }, true))
     }
 
     /// The words at the first pixel: so much more than at a corner.
@@ -199,14 +205,9 @@ impl Setup {
         })
     }
 
+    /// Top first; of equal v the earlier comes first. Each field is written where it stays: a `Sorted` is long to copy.
     #[inline(always)]
-    fn of_program(&self, sorted: &Sorted<FEW>, parts: &Parts, prim: &Prim<FEW>) -> Option<SetupClocks> {
-        self.timing.of_program(Screen::picture(&self.plan), sorted, parts, prim)
-    }
-
-    /// Top first; of equal v the earlier comes first.
-    #[inline(always)]
-    fn sorted(&self, vertices: &[PortVertex; 3]) -> Sorted<FEW> {
+    fn sort_short(&self, vertices: &[PortVertex; 3], sorted: &mut Sorted<FEW>) {
         let centre = |x: i32| ((x << self.unused >> self.unused) << self.double) - self.offset;
         let [v0, v1, v2] = [&vertices[0], &vertices[1], &vertices[2]].map(|vertex| centre(vertex.y()));
         let mut order = [0usize; 3];
@@ -220,12 +221,13 @@ impl Setup {
             values: from_fn(|i| vertex.values()[i] & self.vertex_masks[i]),
         };
         let [top, middle, bottom] = order;
-        let corners = [corner(&vertices[top]), corner(&vertices[middle]), corner(&vertices[bottom])];
-        let mut sorted = Sorted::of(corners, Role::of(vertices));
-        if self.polygon {
-            self.window(&mut sorted, vertices, order);
+        sorted.corners = [corner(&vertices[top]), corner(&vertices[middle]), corner(&vertices[bottom])];
+        if self.roles {
+            sorted.role = Role::of(vertices);
         }
-        sorted
+        if self.polygon {
+            self.window(sorted, vertices, order);
+        }
     }
 
     /// k0 and k1: the first column that may have a pixel, and the first behind the last.

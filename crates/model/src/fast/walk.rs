@@ -138,6 +138,7 @@ impl Walker {
     }
 
     /// Walks along a line; appends a span for each of its pixels on the screen. Gives the steps without one behind the last.
+    #[inline(never)]
     pub(super) fn line(&self, prim: &Prim<FEW>, walk: &Walk, spans: &mut Spans) -> u32 {
         let (mut edge, mut words, mut empty) = (prim.major, walk.words, 0);
         let across = if prim.flat { self.height } else { self.width };
