@@ -208,7 +208,7 @@ impl<const C: usize> Model<C> {
 
     #[inline(always)]
     fn cycle_of_all(&mut self, inputs: &Inputs, tell: impl FnOnce(&Line<C>)) -> Outputs<C> {
-        let mut offers = std::mem::take(&mut self.offers);
+        let mut offers = if C > FEW { std::mem::take(&mut self.offers) } else { Offers::new(0) };
         let wires = self.wires(inputs, &mut offers);
         let outputs = self.outputs(inputs, &wires, offers.made());
         self.count(inputs, &outputs);
@@ -223,7 +223,9 @@ impl<const C: usize> Model<C> {
         for place in (0..self.pipe().len()).rev() {
             self.step_stage(&wires, offers.made(), place, inputs);
         }
-        self.offers = offers;
+        if C > FEW {
+            self.offers = offers;
+        }
         self.count_word_reads(inputs);
         self.step_pixel(inputs, &wires, light_pass);
         self.step_lines(inputs, wires.span_ready(), light_pass, tell);

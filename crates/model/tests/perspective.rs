@@ -34,10 +34,7 @@ fn fragments(plan: &Plan, triangles: &[common::Triangle], map: Option<&[u32]>) -
     let state = DrawState { shadow_on: map.is_some(), ..common::ALWAYS };
     let mut rig = Rig::<C>::new(plan, state, Stalls::NONE);
     rig.memories.write("map", 0, map.unwrap_or_default().iter().map(|word| u128::from(*word)));
-    let mut seen = Vec::new();
-    let all = triangles.iter().map(|triangle| Ok::<_, ()>(*triangle));
-    rig.draw(all, |_, model, cycle| seen.extend(cycle.read.map(|_| model.last_read()))).expect("no errors");
-    seen
+    common::fragments_read(&mut rig, triangles)
 }
 
 /// Of a fragment: the exact values as numerators over one denominator, and how far a value may be off before and behind its

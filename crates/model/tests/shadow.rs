@@ -265,10 +265,7 @@ fn the_map_changes_colours_and_nothing_else() {
                 map = (0..texels(&plan)).map(|_| rng.random_range(0..=most)).collect();
             }
             rig.memories.write("map", 0, map.iter().map(|word| u128::from(*word)));
-            let mut seen = Vec::new();
-            let all = triangles.iter().map(|triangle| Ok::<_, ()>(*triangle));
-            rig.draw(all, |_, model, cycle| seen.extend(cycle.read.map(|_| model.last_read())))
-                .expect("no errors");
+            let seen = common::fragments_read(&mut rig, &triangles);
             assert!(rig.model.counters().add_up());
             seen
         });
@@ -299,10 +296,7 @@ fn fragments(plan: &Plan, triangles: &[common::Triangle], map: Option<&[u32]>) -
     if let Some(map) = map {
         rig.memories.write("map", 0, map.iter().map(|word| u128::from(*word)));
     }
-    let mut seen = Vec::new();
-    let all = triangles.iter().map(|triangle| Ok::<_, ()>(*triangle));
-    rig.draw(all, |_, model, cycle| seen.extend(cycle.read.map(|_| model.last_read()))).expect("no errors");
-    seen
+    common::fragments_read(&mut rig, triangles)
 }
 
 /// Every decision of a million fragments beside the exact planes through the vertices at the port: the texel is the floor of

@@ -1,7 +1,7 @@
 //! TERM: every word of every pixel is that of formula (1), in both walks; the clocks of its steps; what it costs.
 
 use crate::common::shade::{leftward, random_shading, words};
-use crate::common::{ALWAYS, Triangle, machine, random_machine, random_triangle};
+use crate::common::{ALWAYS, Triangle, machine, random_machine, random_triangle, watch};
 use edgewalk_machine::{Activity, Plan, Walk};
 use edgewalk_model::term::Term;
 use edgewalk_model::tokens::{MAX_CHANNELS, Span};
@@ -27,8 +27,7 @@ fn words_of_all_pixels(
     let mut rig = rig(plan, shading, stalls);
     let mut pixels = 0;
     let mut before = None;
-    let offered = triangles.iter().map(|triangle| Ok::<_, std::convert::Infallible>(*triangle));
-    let Ok(()) = rig.draw(offered, |_, model, _| {
+    watch(&mut rig, triangles, &mut |_, model, _| {
         let pixel = &model.pixel;
         let id = pixel.source().id as usize;
         let here = pixel.active().then(|| (id, pixel.place()));
@@ -124,8 +123,7 @@ fn walk_counts_lines_down_from_its_reference() {
             shading.records[0].y = first + below;
             let lines = 1u32 << plan.widths().y;
             let mut rig = rig(&plan, &shading, Stalls::NONE);
-            let offered = triangles.iter().map(|triangle| Ok::<_, std::convert::Infallible>(*triangle));
-            let Ok(()) = rig.draw(offered, |_, model, _| {
+            watch(&mut rig, &triangles, &mut |_, model, _| {
                 let pixel = &model.pixel;
                 if pixel.active() {
                     let (x, y) = pixel.place();
@@ -149,8 +147,7 @@ fn walk_counts_lines_down_from_its_reference() {
 /// The first line on which PIXEL stands.
 fn first_line(plan: &Plan, triangles: &[Triangle], shading: &Shading) -> u32 {
     let (mut rig, mut first) = (rig(plan, shading, Stalls::NONE), None);
-    let offered = triangles.iter().map(|triangle| Ok::<_, std::convert::Infallible>(*triangle));
-    let Ok(()) = rig.draw(offered, |_, model, _| {
+    watch(&mut rig, triangles, &mut |_, model, _| {
         let pixel = &model.pixel;
         if pixel.active() {
             first.get_or_insert(pixel.place().1);
@@ -240,8 +237,7 @@ fn clocks_a_pixel_by_size() {
                 (0..200).map(|_| random_triangle(&plan, rng.random_range(low..high), &mut rng)).collect();
             let shading = at_the_top(&plan, &triangles, random_shading(&plan, &triangles, &mut rng));
             let mut rig = rig(&plan, &shading, Stalls::NONE);
-            let offered = triangles.iter().map(|triangle| Ok::<_, std::convert::Infallible>(*triangle));
-            let Ok(()) = rig.draw(offered, |_, _, _| ());
+            watch(&mut rig, &triangles, &mut |_, _, _| ());
             let counters = rig.model.counters();
             let (pixels, walks) = (counters.busy() as f64, counters.spent(Activity::Term) as f64);
             line += &format!(

@@ -67,9 +67,7 @@ fn both(
     let twins: Vec<common::Triangle> =
         triangles.iter().map(|triangle| triangle.each_ref().map(moved)).collect();
     let mut rig = Rig::<C>::new(plan, common::ALWAYS, Stalls::NONE);
-    let mut seen = Vec::new();
-    let all = triangles.iter().map(|triangle| Ok::<_, ()>(*triangle));
-    rig.draw(all, |_, model, cycle| seen.extend(cycle.read.map(|_| model.last_read()))).expect("no errors");
+    let seen = common::fragments_read(&mut rig, triangles);
     let mut beside = Vec::new();
     common::fragments(twin, &twins, |id, at, outputs| {
         let f: Fragment<C> = seen[beside.len()];

@@ -8,14 +8,13 @@ mod examples;
 #[path = "../examples/common/mix.rs"]
 mod mix;
 
-use crate::common::{ALWAYS, Triangle, machine, place};
+use crate::common::{ALWAYS, Triangle, machine, place, watch};
 use edgewalk_golden::Shading;
 use edgewalk_machine::channel::Precision;
-use edgewalk_machine::{Activity, EdgeKind, Fill, MAX_CHANNELS, Machine, Plan};
+use edgewalk_machine::{Activity, EdgeKind, Fill, Machine, Plan};
 use edgewalk_model::fast::Renderer;
 use edgewalk_model::{DrawState, Rig, SetupClocks, Stalls, longest_setup, setup_clocks};
 use edgewalk_scene::Scene;
-use std::convert::Infallible;
 use std::fmt::Write as _;
 use std::path::Path;
 
@@ -36,8 +35,8 @@ struct Trace {
 
 fn trace(machine: &Plan, triangles: &[Triangle]) -> Trace {
     let mut trace = Trace::default();
-    let tokens = triangles.iter().copied().map(Ok::<_, Infallible>);
-    let Ok(()) = Rig::<MAX_CHANNELS>::new(machine, ALWAYS, Stalls::NONE).draw(tokens, |now, _, cycle| {
+    let mut rig = Rig::new(machine, ALWAYS, Stalls::NONE);
+    watch(&mut rig, triangles, &mut |now, _, cycle| {
         trace.triangles.extend(cycle.outputs.triangle.then_some(now));
         trace.writes.extend(cycle.written.then_some(now));
         if let Some(addr) = cycle.read {

@@ -12,7 +12,7 @@ use std::collections::BTreeSet;
 type Triangle = [PortVertex; 3];
 
 /// Draws, and sees the machine in every cycle.
-fn watch(plan: &Plan, triangles: &[Triangle], stalls: Stalls, mut see: impl FnMut(&View)) {
+fn watch(plan: &Plan, triangles: &[Triangle], stalls: Stalls, see: &mut dyn FnMut(&View)) {
     for_channels!(plan, C => {
         let mut rig = Rig::<C>::new(plan, DrawState::default(), stalls);
         let (mut view, mut waiting) = (View::new(), triangles);
@@ -100,7 +100,7 @@ fn every_unit_declares_what_is_to_be_seen_of_it() {
     let (mut units, mut links, mut named, mut met) = (0, 0, 0, BTreeSet::new());
     for plan in machines(100, &mut rng) {
         let mut seen = None;
-        watch(&plan, &[random_triangle(&plan, 20.0, &mut rng)], Stalls::NONE, |view| {
+        watch(&plan, &[random_triangle(&plan, 20.0, &mut rng)], Stalls::NONE, &mut |view| {
             seen.get_or_insert_with(|| view.clone()); // names are those of every cycle
         });
         let seen = seen.expect("a cycle");
@@ -156,7 +156,7 @@ fn values_fit_their_shapes_in_every_cycle() {
     for plan in machines(8, &mut rng) {
         let triangles = drawn(&plan, 12, &mut rng);
         let stalls = Stalls { seed: 3, rd: 60, data: 60, wr: 60 };
-        watch(&plan, &triangles, stalls, |view| {
+        watch(&plan, &triangles, stalls, &mut |view| {
             let structure = view.structure();
             assert_eq!(view.values().len(), structure.registers.len());
             for (value, register) in view.values().iter().zip(&structure.registers) {
@@ -181,7 +181,7 @@ fn the_jobs_of_setup_fill_its_clocks() {
     for plan in machines(22, &mut rng) {
         let triangles = drawn(&plan, 25, &mut rng);
         let mut before: Option<[u64; 4]> = None;
-        watch(&plan, &triangles, Stalls::NONE, |view| {
+        watch(&plan, &triangles, Stalls::NONE, &mut |view| {
             let structure = view.structure();
             let unit = structure.unit("setup").expect("declared");
             let value = |name: &str| {

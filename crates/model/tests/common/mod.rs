@@ -12,9 +12,10 @@ pub use check::Check;
 pub use rule::inside;
 
 use edgewalk_machine::{Channel, Dither, Kind, Machine, Plan, PortVertex, ShadeKind};
-use edgewalk_model::tokens::output;
-use edgewalk_model::{DrawState, Frame, Sample, Stalls};
+use edgewalk_model::tokens::{Fragment, MAX_CHANNELS, output};
+use edgewalk_model::{Cycle, DrawState, Frame, Model, Rig, Sample, Stalls};
 use rand::Rng;
+use std::convert::Infallible;
 
 pub type Triangle = [PortVertex; 3];
 
@@ -49,6 +50,25 @@ pub fn is_divided(plan: &Plan, channel: &Channel) -> bool {
 }
 
 /// As [`edgewalk_model::render`], of triangles that are this machine's.
+/// Draws the triangles. `see` gets every cycle: its number, the machine behind it, and what happened. The machine is long to compile:
+/// so it is compiled here once, and not in every test.
+#[inline(never)]
+pub fn watch(
+    rig: &mut Rig<MAX_CHANNELS>,
+    triangles: &[Triangle],
+    see: &mut dyn FnMut(u64, &Model<MAX_CHANNELS>, &Cycle<MAX_CHANNELS>),
+) {
+    let offered = triangles.iter().map(|triangle| Ok::<_, Infallible>(*triangle));
+    let Ok(()) = rig.draw(offered, see);
+}
+
+/// The fragments that are read, in order.
+pub fn fragments_read(rig: &mut Rig<MAX_CHANNELS>, triangles: &[Triangle]) -> Vec<Fragment<MAX_CHANNELS>> {
+    let mut seen = Vec::new();
+    watch(rig, triangles, &mut |_, model, cycle| seen.extend(cycle.read.map(|_| model.last_read())));
+    seen
+}
+
 pub fn render(plan: &Plan, triangles: &[Triangle], state: DrawState, stalls: Stalls) -> Frame {
     edgewalk_model::render(plan, triangles.iter().copied(), state, stalls).expect("this machine's vertices")
 }
