@@ -70,7 +70,7 @@ impl Inputs<'_> {
 }
 
 /// What happened in a cycle of the machine with its memories.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 pub struct Cycle<const C: usize> {
     /// The ports of the machine.
     pub outputs: Outputs<C>,

@@ -160,6 +160,12 @@ impl<const C: usize> Model<C> {
         outputs
     }
 
+    /// Nothing was held behind SETUP in the cycle before: [`Model::cycle_at_rest`] is the next, unless it is one of reset.
+    #[inline(always)]
+    pub(crate) fn rests(&self) -> bool {
+        self.rests
+    }
+
     /// Nothing is held behind SETUP.
     #[inline]
     fn at_rest(&self) -> bool {
@@ -183,7 +189,7 @@ impl<const C: usize> Model<C> {
     /// A cycle in which SPAN, PIXEL and DEPTH have nothing to move and nothing is offered to them: they stay as they
     /// are, and so only SETUP and the EDGE or POLY that may take its prim are clocked.
     #[inline(always)]
-    fn cycle_at_rest(&mut self, inputs: &Inputs) -> Outputs<C> {
+    pub(crate) fn cycle_at_rest(&mut self, inputs: &Inputs) -> Outputs<C> {
         let tri_ready = self.setup.tri_ready();
         let activity = if tri_ready { Activity::Idle } else { Activity::Setup };
         self.counters.cycle(activity);

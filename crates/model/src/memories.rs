@@ -195,6 +195,12 @@ impl<const C: usize> Memories<C> {
         }
     }
 
+    /// Clock edge of a machine of few channels in a cycle in which nothing is read, written, or on its way.
+    #[inline(always)]
+    pub(crate) fn rest(&mut self) {
+        self.depth.step(None, false, None);
+    }
+
     /// Clock edge behind a cycle of the machine, which has asked the memories that the host alone writes for so much.
     #[inline(always)]
     pub fn step(&mut self, cycle: &Cycle<C>, asks: &[Ask]) {

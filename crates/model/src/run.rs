@@ -9,7 +9,7 @@ use crate::counters::Counters;
 use crate::io::{Cycle, Inputs};
 use crate::machine::Model;
 use crate::memories::Memories;
-use crate::tokens::for_channels;
+use crate::tokens::{FEW, for_channels};
 use crate::waits::Waits;
 use edgewalk_machine::{DrawState, Events, Plan, PortVertex, Shading};
 use std::convert::Infallible;
@@ -17,6 +17,39 @@ use std::convert::Infallible;
 /// Draws triangles by one state, cycle by cycle and without a look at the pixels: performance counters and events.
 #[must_use]
 pub fn tick(
+    plan: &Plan,
+    triangles: &[[PortVertex; 3]],
+    state: DrawState,
+    waits: Waits,
+    shading: &Shading,
+) -> (Counters, Events) {
+    #[cfg(target_arch = "x86_64")]
+    if is_x86_feature_detected!("bmi1")
+        && is_x86_feature_detected!("bmi2")
+        && is_x86_feature_detected!("avx2")
+    {
+        // SAFETY: the function is safe code, compiled for exactly the features found here.
+        return unsafe { tick_by_vectors(plan, triangles, state, waits, shading) };
+    }
+    tick_by_any(plan, triangles, state, waits, shading)
+}
+
+/// [`tick`] compiled for vectors of 256 bits: a fragment, or the words of four channels, is one.
+#[cfg(target_arch = "x86_64")]
+#[target_feature(enable = "avx2,bmi1,bmi2")]
+fn tick_by_vectors(
+    plan: &Plan,
+    triangles: &[[PortVertex; 3]],
+    state: DrawState,
+    waits: Waits,
+    shading: &Shading,
+) -> (Counters, Events) {
+    tick_by_any(plan, triangles, state, waits, shading)
+}
+
+/// [`tick`] for the processor that the caller is compiled for.
+#[inline(always)]
+fn tick_by_any(
     plan: &Plan,
     triangles: &[[PortVertex; 3]],
     state: DrawState,
@@ -65,6 +98,12 @@ impl<const C: usize> Rig<C> {
     #[inline(always)]
     pub fn cycle(&mut self, tri: Option<(&[PortVertex; 3], u32)>, writes_open: bool) -> Cycle<C> {
         let Rig { model, memories } = self;
+        if C == FEW && model.rests() {
+            // No read is on its way, and none is asked for.
+            let outputs = model.cycle_at_rest(&Inputs { tri, ..Inputs::default() });
+            memories.rest();
+            return Cycle { outputs, ..Cycle::default() };
+        }
         let inputs = memories.inputs(tri, writes_open);
         let outputs =
             model.cycle_and_tell(&inputs, |line| memories.depth.expect(line.y, [line.major, line.minor]));

@@ -13,6 +13,7 @@ mod fast_poly;
 mod named;
 mod golden;
 mod hazards;
+mod memory;
 mod lines;
 mod own_pass;
 mod pairs;
