@@ -124,3 +124,42 @@ fn each_test_program_runs_and_each_failure_is_told() {
         assert_eq!(text.contains("the examples\n"), examples.starts_with("echo"), "{text}");
     }
 }
+
+/// What `tests/rustc` hands to the compiler for a crate of this package and name.
+fn compiled(package: &str, name: &str, arguments: &str) -> String {
+    let mut command = Command::new(root().join("tests/rustc"));
+    command.arg("echo").args(arguments.split(' ')).env("CARGO_PKG_NAME", package);
+    let output = command.env("CARGO_CRATE_NAME", name).output().unwrap();
+    assert!(output.status.success());
+    String::from_utf8(output.stdout).unwrap().trim().to_owned()
+}
+
+#[test]
+fn test_programs_that_compute_little_are_not_optimised() {
+    let words = "--crate-name it -C opt-level=3 --test";
+    let level = |package: &str, name: &str| {
+        let handed = compiled(package, name, words);
+        let added = handed.strip_prefix(words).expect("the words of cargo come first");
+        added.split_whitespace().find_map(|word| word.strip_prefix("opt-level=")).map(String::from)
+    };
+    assert_eq!(level("edgewalk-cli", "suites").as_deref(), Some("0"));
+    assert_eq!(level("edgewalk-scene", "edgewalk_scene").as_deref(), Some("0"));
+    assert_eq!(compiled("edgewalk-scene", "edgewalk_scene", "--emit=link"), "--emit=link", "a library");
+
+    // The others are named: each name is that of a test program.
+    let text = fs::read_to_string(root().join("tests/rustc")).unwrap();
+    let named: Vec<_> = text.split('"').filter(|part| part.starts_with("edgewalk-")).collect();
+    assert_eq!(named.len(), 6, "{named:?}");
+    for program in named {
+        let (package, name) = program.split_once(' ').expect("package and crate");
+        assert_ne!(level(package, name).as_deref(), Some("0"), "{program}");
+        let folder = root().join("crates").join(package.trim_start_matches("edgewalk-"));
+        let manifest = fs::read_to_string(folder.join("Cargo.toml")).unwrap();
+        let declared = manifest.contains(&format!("[[test]]\nname = \"{name}\"\n"));
+        let library = name == package.replace('-', "_");
+        assert!(
+            declared || library || folder.join("tests").join(name).is_dir(),
+            "{program}: no such test program"
+        );
+    }
+}
