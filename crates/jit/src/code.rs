@@ -69,6 +69,7 @@ impl Code {
     ///
     /// # Panics
     /// If the state is smaller than the layout: a defect of this crate.
+    #[inline]
     pub fn run(&self, state: &mut [u64]) {
         assert!(state.len() >= self.size, "the state is made from the same layout");
         // SAFETY: the program reads and writes only places and areas of its layout, and these end within

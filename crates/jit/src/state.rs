@@ -34,6 +34,7 @@ impl State {
     }
 
     /// Marks these units as working.
+    #[inline]
     pub fn wake(&mut self, layout: &Layout, wakes: &Wakes, units: u64) {
         wakes.units(units).for_each(|(unit, clocks)| self.set_byte(layout.counters as usize + unit, clocks));
     }
@@ -44,6 +45,7 @@ impl State {
         (self.0[at / 8] >> (at % 8 * 8)) as u8
     }
 
+    #[inline]
     fn set_byte(&mut self, at: usize, byte: u8) {
         let shift = at % 8 * 8;
         self.0[at / 8] = self.0[at / 8] & !(0xff << shift) | u64::from(byte) << shift;

@@ -79,6 +79,7 @@ impl Wakes {
     }
 
     /// The units of a set that can stand still, with their clocks.
+    #[inline]
     pub fn units(&self, set: u64) -> impl Iterator<Item = (usize, u8)> {
         let mut left = set & self.resting;
         std::iter::from_fn(move || {
