@@ -19,7 +19,9 @@ fn verilog_and_a_fault_are_told_by_dpi() {
         std::fs::write(folder.path().join(file.file_name()), text.replace(from, to)).expect("written");
     }
     let verilator = command("verilator").replace("hdl/small", &path);
-    must(&format!("{verilator} -O0 -CFLAGS -O0 --Mdir {path}/obj_dir"));
+    must(&format!(
+        "{verilator} -O0 -MAKEFLAGS 'OPT_FAST=-O0 OPT_SLOW=-O0 OPT_GLOBAL=-O0' --Mdir {path}/obj_dir"
+    ));
     let simulate =
         |argument: &[&str]| ran(Command::new(folder.path().join("obj_dir/Vlockstep")).args(argument)).1;
 
