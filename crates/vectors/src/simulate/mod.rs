@@ -101,11 +101,13 @@ pub fn simulate(
                 // A foreign file may lack `timescale, or draw warnings: lint is where they count.
                 compile.args(["-Wno-fatal", "--timescale", "1ns/1ps"]);
             }
-            // The C++ runs for a moment only: to optimise it takes longer.
-            compile
-                .arg("--Mdir")
-                .arg(&objects)
-                .args(["-MAKEFLAGS", "OPT_FAST=-O0 OPT_SLOW=-O0 OPT_GLOBAL=-O0"]);
+            // The C++ runs for a moment only: to optimise it takes longer, and each file of it reads Verilator's headers.
+            compile.arg("--Mdir").arg(&objects).args([
+                "-MAKEFLAGS",
+                "OPT_FAST=-O0 OPT_SLOW=-O0 OPT_GLOBAL=-O0",
+                "--output-split",
+                "1000000",
+            ]);
             run(compile.current_dir(directory), limit)?;
             run(Command::new(objects.join("Vtb")).current_dir(directory), limit)?
         }

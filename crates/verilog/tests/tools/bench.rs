@@ -100,7 +100,8 @@ impl<'c> Bench<'c> {
         // The bench itself is no example of style; the cases have been linted.
         let quiet =
             ["--binary", "--timing", "-Wno-fatal", "-Wno-lint", "-Wno-style", "--top-module", "bench"];
-        let options = ["-O0", "-MAKEFLAGS", "OPT_FAST=-O0 OPT_SLOW=-O0 OPT_GLOBAL=-O0", "--build-jobs", "2"];
+        let options =
+            ["-O0", "-MAKEFLAGS", "OPT_FAST=-O0 OPT_SLOW=-O0 OPT_GLOBAL=-O0", "--output-split", "1000000"];
         self.build("verilator", &[&quiet[..], &options].concat());
         self.differences(&run(self.directory.path(), "obj_dir/Vbench", &[]))
     }
