@@ -16,6 +16,11 @@ fn script(path: &Path, body: &str) {
 
 /// The exit code of `tests/run` and what it prints, where the build, the suites and the Python part end as given.
 fn run(build: &str, suites: &str, python: &str) -> (Option<i32>, String) {
+    run_with(None, build, suites, python)
+}
+
+/// The same, where the caller has this `RUSTC_WRAPPER` or none.
+fn run_with(wrapper: Option<&str>, build: &str, suites: &str, python: &str) -> (Option<i32>, String) {
     let folder = tempfile::tempdir().unwrap();
     let at = folder.path();
     fs::create_dir(at.join("tests")).unwrap();
@@ -26,6 +31,8 @@ fn run(build: &str, suites: &str, python: &str) -> (Option<i32>, String) {
     fs::create_dir(at.join("temporary")).unwrap();
     let path = format!("{}:{}", at.join("bin").display(), std::env::var("PATH").unwrap());
     let mut command = Command::new(at.join("tests/run"));
+    // The run that this test is a part of has one.
+    command.env_remove("RUSTC_WRAPPER").envs(wrapper.map(|wrapper| ("RUSTC_WRAPPER", wrapper)));
     let output = command.env("PATH", path).env("TMPDIR", at.join("temporary")).output().unwrap();
     let left = fs::read_dir(at.join("temporary")).unwrap().count();
     assert_eq!(left, 0, "temporary folders are left");
@@ -122,6 +129,15 @@ fn each_test_program_runs_and_each_failure_is_told() {
             assert_eq!(text.contains(&own), *body == passed, "{own}: {text}");
         }
         assert_eq!(text.contains("the examples\n"), examples.starts_with("echo"), "{text}");
+    }
+}
+
+#[test]
+fn the_run_compiles_by_its_own_wrapper_or_the_callers() {
+    let said = "echo \"by <$RUSTC_WRAPPER>\"";
+    for (wrapper, named) in [(None, "/tests/rustc>"), (Some("mine"), "by <mine>"), (Some(""), "by <>")] {
+        let (ended, text) = run_with(wrapper, said, "true", "true");
+        assert!(ended == Some(0) && text.contains(named), "{wrapper:?}: {text}");
     }
 }
 

@@ -9,6 +9,7 @@ use edgewalk_vectors::{
     Files, Outcome, Simulator, StallKind, Suite, Tables, Unit, capture, design, directory, lint, simulate,
     synth_ice40,
 };
+use std::path::Path;
 use std::time::{Duration, Instant};
 
 /// Of one run of a tool: Verilator's compiler takes minutes on a busy machine.
@@ -47,10 +48,21 @@ fn passes(simulator: Simulator, files: &Files) -> u64 {
     // Tools must cope with a path that has a space in it.
     let vectors = place.path().join("the vectors");
     write(files, &vectors);
-    match simulate(simulator, &vectors, &place.path().join("work"), LIMIT) {
+    let outcome = simulate(simulator, &vectors, &place.path().join("work"), LIMIT);
+    if simulator == Simulator::Verilator {
+        assert_eq!(objects(&place.path().join("work/obj_dir")), ["Vtb__ALL.o"], "of one file of C++");
+    }
+    match outcome {
         Ok(Outcome::Pass { checked, .. }) => checked,
         other => panic!("{}: {other:?}", simulator.name()),
     }
+}
+
+/// What was compiled of the simulation, without Verilator's own library.
+fn objects(folder: &Path) -> Vec<String> {
+    let entries = std::fs::read_dir(folder).expect("a folder");
+    let names = entries.map(|entry| entry.expect("an entry").file_name().into_string().expect("a name"));
+    names.filter(|name| name.starts_with("Vtb") && name.ends_with(".o")).collect()
 }
 
 /// What of the tools a machine goes through.
