@@ -25,7 +25,11 @@ fn run_with(wrapper: Option<&str>, build: &str, suites: &str, python: &str) -> (
     let at = folder.path();
     fs::create_dir(at.join("tests")).unwrap();
     fs::copy(root().join("tests/run"), at.join("tests/run")).unwrap();
-    script(&at.join("tests/python"), python);
+    // The module is built as the test programs are.
+    script(
+        &at.join("tests/python"),
+        &format!("[ \"$*\" = '--release --workspace --features edgewalk-cli/jit' ] || exit 9\n{python}"),
+    );
     script(&at.join("tests/suites"), suites);
     script(&at.join("bin/cargo"), build);
     fs::create_dir(at.join("temporary")).unwrap();
@@ -59,6 +63,26 @@ fn the_exit_code_of_the_whole_run_is_that_of_its_parts() {
         let complains = text.contains("tests/run: tests/python failed");
         assert_eq!(complains, python.starts_with("exit"), "{text}");
         assert_eq!(text.contains("tests/run: suites "), build == "true", "{text}");
+    }
+}
+
+#[test]
+fn the_python_module_is_the_one_of_the_test_build() {
+    let folder = tempfile::tempdir().unwrap();
+    script(&folder.path().join("cargo"), "echo \"${CARGO-none} ${PYO3_PYTHON-none} $*\"");
+    let path = format!("{}:{}", folder.path().display(), std::env::var("PATH").unwrap());
+    for (asked, called) in [
+        (
+            ["rustc", "--lib"],
+            "none none test --release --all --no-run --message-format json-render-diagnostics\n",
+        ),
+        (["metadata", "--offline"], "none python metadata --offline\n"),
+    ] {
+        let mut command = Command::new(root().join("tests/python"));
+        command.args(asked).env("PATH", &path).env("CARGO", "tests/python").env("PYO3_PYTHON", "python");
+        let output = command.env("OPTIONS", "--release --all").output().unwrap();
+        assert_eq!(String::from_utf8_lossy(&output.stdout), called);
+        assert!(output.status.success());
     }
 }
 

@@ -35,7 +35,7 @@ impl<'py> Given<'py> {
     /// The values as this type of numpy's, if the shape is this.
     fn values<T: Element + Copy>(&self, kind: &str, shape: &[usize]) -> PyResult<Vec<T>> {
         let array = self.array.call_method1("astype", (kind,))?;
-        let array: PyReadonlyArrayDyn<'py, T> = array.extract().map_err(PyErr::from)?;
+        let array: PyReadonlyArrayDyn<'py, T> = array.extract()?;
         if array.shape() != shape {
             let found = array.shape();
             let message = format!("{}: its shape is {found:?}; permitted: {shape:?}", self.name);

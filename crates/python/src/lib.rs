@@ -3,6 +3,8 @@
 //!
 //! What Python reads of it is in `edgewalk.pyi`.
 
+#![forbid(unsafe_code)]
+
 mod error;
 mod machine;
 mod array;
