@@ -90,6 +90,11 @@ pub fn small() -> Plan {
     })
 }
 
+/// The same with four lanes in SETUP: for what comes after it. With one lane SETUP takes two thirds of all clocks and more.
+pub fn quick() -> Machine {
+    Machine { lanes: 4, ..Machine::clone(&small()) }
+}
+
 fn checked(machine: Machine) -> Plan {
     machine.plan().expect("can be built")
 }
@@ -124,10 +129,10 @@ fn with_extras<const K: usize>(machine: Machine, extras: [(Kind, u32); K]) -> Ma
 
 /// Three machines whose port takes lines: a wide screen, a high one with slopes and tags, one that blends and draws its map.
 pub fn lined() -> Vec<(&'static str, Plan)> {
-    let mut wide = Machine::clone(&small());
+    let mut wide = quick();
     wide.polygon.lines = Lines::Yes;
     let slopes = Machine { edge_kind: EdgeKind::Slope, edge_fraction: 12, tag_bits: 3, ..wide.clone() };
-    let high = Machine { width: 12, height: 33, subpixel_bits: 1, lanes: 4, hazard: Hazard::Drain, ..slopes };
+    let high = Machine { width: 12, height: 33, subpixel_bits: 1, hazard: Hazard::Drain, ..slopes };
     let blend = Blend { kind: BlendKind::Constant, kt_fraction: 8, kt_vertex: 2, ..wide.blend };
     let light = Shadow { light: ShadowLight::Parallel, fraction: 8, vertex_fraction: 2, ..wide.shadow };
     let shadow = Shadow { size: 40, guard_bits: 0, depth_bits: 8, own_pass: OwnPass::Yes, ..light };
@@ -178,7 +183,7 @@ pub fn twelve() -> Vec<(&'static str, Plan)> {
         ("one_adder_of_four_segments", Machine { adders: 1, segments: 4, span_fifo: 1, ..sequenced.clone() }),
         (
             "four_segments_interlock",
-            Machine { segments: 4, hazard: Hazard::Interlock, latency: 3, ..s.clone() },
+            Machine { segments: 4, hazard: Hazard::Interlock, latency: 3, lanes: 4, ..s.clone() },
         ),
         (
             "slopes_two_extras",
@@ -194,6 +199,7 @@ pub fn twelve() -> Vec<(&'static str, Plan)> {
                 adders: 1,
                 segments: 4,
                 hazard: Hazard::Drain,
+                lanes: 2,
                 ..textbook.clone()
             },
         ),
@@ -231,13 +237,13 @@ pub fn twelve() -> Vec<(&'static str, Plan)> {
 pub fn glass() -> Vec<(&'static str, Plan)> {
     use BlendKind::{Constant, Interpolated};
     use Hazard::{Drain, Forward, Interlock};
-    let small = Machine::clone(&small());
+    let small = quick();
     let machine = |kind, [depths, colors]: [Hazard; 2], [multipliers, stages, queue, latency]: [u32; 4]| {
         let blend = Blend { kind, hazard: colors, multipliers, stages, queue, latency, ..small.blend };
         Machine { hazard: depths, blend: Blend { kt_fraction: 8, kt_vertex: 2, ..blend }, ..small.clone() }
     };
     let mut odd = machine(Interpolated, [Drain, Forward], [0, 2, 5, 3]);
-    (odd.blend.kt_bits, odd.tag_bits, odd.lanes) = (5, 3, 4);
+    (odd.blend.kt_bits, odd.tag_bits) = (5, 3);
     let tagged = Machine { tag_bits: 4, adders: 2, ..machine(Constant, [Interlock, Forward], [1, 2, 3, 2]) };
     let list = vec![
         ("constant_interlock", machine(Constant, [Interlock, Interlock], [3, 1, 4, 2])),
@@ -265,7 +271,7 @@ pub fn glass() -> Vec<(&'static str, Plan)> {
 /// Ten machines with SHADOW, three of them with PROJECT: gates, sides that are powers of two and not, queues, latencies, adders, three whose map transmits; four of them with BLEND, two with
 /// channels of the user's own; the last two draw their map, larger than the screen and smaller.
 pub fn lights() -> Vec<(&'static str, Plan)> {
-    let small = Machine::clone(&small());
+    let small = quick();
     let light = |[size, guard_bits, depth_bits]: [u32; 3], gate, [queue, latency]: [u32; 2]| {
         let light = Shadow { light: ShadowLight::Parallel, fraction: 8, vertex_fraction: 2, ..small.shadow };
         let shadow = Shadow { size, guard_bits, depth_bits, gate, queue, latency, ..light };
@@ -342,7 +348,7 @@ pub fn lights() -> Vec<(&'static str, Plan)> {
 /// Five machines with DITHER: every number of bits that are left and several that are cut, screen doors with and without, narrow screens,
 /// policies of DEPTH, SHADOW and channels of the user's own.
 pub fn dithers() -> Vec<(&'static str, Plan)> {
-    let small = Machine::clone(&small());
+    let small = quick();
     let machine = |[color, bits, kt_bits]: [u32; 3], screen_door| {
         let mut machine = small.clone();
         machine.color.bits = color;
@@ -373,7 +379,7 @@ pub fn shades() -> Vec<(&'static str, Plan)> {
     use ShadeColour::{Multiply, Tables};
     use ShadeKind::{FastPhong, Phong};
     use Walk::{Memory, Register};
-    let small = Machine::clone(&small());
+    let small = quick();
     let shade = |kind, walk, colour, [lights, material_bits, gloss_bits, latency]: [u32; 4]| {
         let short = Shade { table_bits: 8, fraction: 8, linear_fraction: 4, record_bits: 5, ..small.shade };
         let shade = Shade { kind, walk, colour, lights, material_bits, gloss_bits, ..short };
