@@ -110,20 +110,19 @@ fn a_unit_is_counted_timed_and_kept() {
 #[test]
 fn what_does_not_fit_is_null_with_the_reason() {
     let folder = tempfile::tempdir().unwrap();
-    // A queue of more flip-flops than this device has.
-    let span = ["--unit", "span", "--set", "fifo.span=40", "--target", "ice40-up5k", "--seeds", "1"];
-    let report = report(folder.path(), &span);
+    // Tables of more block RAMs than this device has.
+    let mut shade = vec!["--unit", "shade", "--target", "ice40-up5k", "--seeds", "1"];
+    for setting in ["shade.kind=phong", "shade.lights=2", "shade.table_bits=10", "formats.color_bits=16"] {
+        shade.extend(["--set", setting]);
+    }
+    let report = report(folder.path(), &shade);
     let of = &report["targets"][0];
     assert!(of["mhz"].is_null() && of["critical_path"].is_null(), "{of}");
+    let needed = of["cells"]["ram"].as_u64().unwrap();
     let reason = of["reasons"][0].as_str().unwrap();
-    assert!(
-        reason.starts_with("does not fit: ") && reason.contains(" ICESTORM_LC, the device has 5280"),
-        "{of}"
-    );
-    assert!(
-        of["cells"]["ff"].as_u64().unwrap() > 5280 && of["packed"]["design"].as_u64().unwrap() > 5280,
-        "{of}"
-    );
+    let said = format!("does not fit: {needed} ICESTORM_RAM, the device has 30");
+    assert!(needed > 30 && reason.starts_with(&said), "{of}");
+    assert!(of["packed"]["design"].as_u64().unwrap() < 5280, "{of}");
 }
 
 #[test]

@@ -114,13 +114,6 @@ fn a_missing_simulator_is_named() {
     assert!(text.contains("iverilog is not installed; try: apt-get install"), "{text}");
 }
 
-#[test]
-fn a_simulator_that_takes_too_long_is_ended() {
-    let (code, text) = told(&verify(TRIANGLE, &["--limit", "1"], None));
-    assert_eq!(code, Some(4), "{text}");
-    assert!(text.contains("was ended after 1 s"), "{text}");
-}
-
 /// Tools of our own in place of the simulators: what the bench would print is `script`, run in the directory of vectors with
 /// $suite, $unit and $n, the number that its manifest expects.
 fn fake_simulators(script: &str) -> tempfile::TempDir {
@@ -150,18 +143,32 @@ fn fake_simulators(script: &str) -> tempfile::TempDir {
     folder
 }
 
+/// What a bench prints that has compared all.
+const HONEST: &str = "printf 'wrong 0\\nchecked %d / %d\\nPASS\\n' $n $n";
+
+#[test]
+fn a_simulator_that_takes_too_long_is_ended() {
+    let script = format!("case $suite.$unit in\nhazards.setup) exec sleep 60;;\n*) {HONEST};;\nesac");
+    let tools = fake_simulators(&script);
+    let path = format!("{}:{}", tools.path().display(), std::env::var("PATH").unwrap_or_default());
+    let started = std::time::Instant::now();
+    let (code, text) = told(&verify(TRIANGLE, &["--limit", "1"], Some(&path)));
+    assert_eq!(code, Some(4), "{text}");
+    assert!(text.contains("was ended after 1 s"), "{text}");
+    assert!(started.elapsed().as_secs() < 60, "it was not waited for");
+}
+
 /// A simulator that compared nothing, less, more, or another thing than the manifest expects has not passed, and is told
 /// beside what was expected.
 #[test]
 fn a_simulator_that_is_wrong_does_not_pass() {
-    let honest = "printf 'wrong 0\\nchecked %d / %d\\nPASS\\n' $n $n";
     let script = format!(
         "case $suite.$unit in\n\
          hazards.setup) printf 'checked 0 / 0\\nPASS\\n';;\n\
          hazards.edge) printf 'checked %d / %d\\nPASS\\n' $((n - 1)) $((n - 1));;\n\
          hazards.span) printf 'frag: token 0: expected 1, found 2\\nchecked %d / %d\\nFAIL\\n' $n $n;;\n\
          hazards.pixel) printf 'checked %d / %d\\nPASS\\n' $((n + 1)) $((n + 1));;\n\
-         *) {honest};;\nesac"
+         *) {HONEST};;\nesac"
     );
     let tools = fake_simulators(&script);
     let path = format!("{}:{}", tools.path().display(), std::env::var("PATH").unwrap_or_default());
