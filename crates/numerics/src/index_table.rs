@@ -20,6 +20,8 @@ pub trait Rising {
 #[derive(Clone, Debug)]
 pub struct IndexTable<F> {
     entries: Vec<u32>,
+    /// The function at 0 to 2^t, LSB.
+    borders: Vec<f64>,
     function: F,
 }
 
@@ -27,15 +29,16 @@ impl<F: Rising> IndexTable<F> {
     /// Of 2^`bits` entries.
     #[must_use]
     pub fn new(bits: u32, function: F) -> Self {
-        let last = (1u32 << bits) - 1;
+        let count = 1u32 << bits;
         let [least, most] = function.ends();
+        let borders: Vec<f64> = (0..=count).map(|index| function.at(index.into())).collect();
         let entry = |index: u32| {
-            let low = if index == 0 { least } else { function.at(index.into()) };
-            let high = if index == last { most } else { function.at(f64::from(index) + 1.0) };
+            let low = if index == 0 { least } else { borders[index as usize] };
+            let high = if index == count - 1 { most } else { borders[index as usize + 1] };
             // Of a function in 0 to 2^32 it is such a number too.
             ((low + high) / 2.0 + 0.5).floor() as u32
         };
-        Self { entries: (0..=last).map(entry).collect(), function }
+        Self { entries: (0..count).map(entry).collect(), borders, function }
     }
 
     /// Like `new`, with the function's least value for the first entry, whatever its bin.
@@ -64,14 +67,24 @@ impl<F: Rising> IndexTable<F> {
     pub fn error(&self, index_error: f64) -> f64 {
         let last = self.entries.len() - 1;
         let [least, most] = self.function.ends();
-        let off = |(index, entry): (usize, &u32)| {
+        // The function is computed only where the borders around let an entry be worse than those before.
+        let reach = index_error.ceil() as usize;
+        let mut worst = 0.0;
+        for (index, entry) in self.entries.iter().enumerate().rev() {
+            let entry = f64::from(*entry);
+            let below = index.checked_sub(reach).map_or(least, |border| self.borders[border]);
+            let above = self.borders.get((index + 1).saturating_add(reach)).map_or(most, |border| *border);
+            let [below, above] =
+                [if index == 0 { least } else { below }, if index == last { most } else { above }];
+            if (entry - below).max(above - entry) <= worst {
+                continue;
+            }
             let place = index as f64;
             let low = if index == 0 { least } else { self.function.at(place - index_error) };
             let high = if index == last { most } else { self.function.at(place + 1.0 + index_error) };
-            let entry = f64::from(*entry);
-            (entry - low).max(high - entry)
-        };
-        self.entries.iter().enumerate().map(off).fold(0.0, f64::max)
+            worst = (entry - low).max(high - entry).max(worst);
+        }
+        worst
     }
 }
 
@@ -122,10 +135,12 @@ impl Highlight {
     #[must_use]
     pub fn sharpest(self, most: u32) -> IndexTable<Self> {
         let table = |gloss| IndexTable::new(self.bits, Self { gloss, ..self });
-        let error = |table: &IndexTable<Self>| table.error(0.0);
-        (1..=most)
-            .map(table)
-            .fold(table(0), |best, next| if error(&next) < error(&best) { next } else { best })
+        let judged = |gloss| {
+            let table = table(gloss);
+            (table.error(0.0), table)
+        };
+        let better = |best: (f64, _), next: (f64, _)| if next.0 < best.0 { next } else { best };
+        (1..=most).map(judged).fold(judged(0), better).1
     }
 
     /// What the power gives for N·H, LSB.
@@ -187,6 +202,41 @@ mod tests {
         }
         println!("{tables} tables, {checked} reads");
         assert!(tables == 18 && checked > 500_000);
+    }
+
+    /// The bound of all entries, each of them computed.
+    fn of_all<F: Rising>(table: &IndexTable<F>, error: f64) -> f64 {
+        let last = table.entries.len() - 1;
+        let [least, most] = table.function.ends();
+        let off = |(index, entry): (usize, &u32)| {
+            let low = if index == 0 { least } else { table.function.at(index as f64 - error) };
+            let high = if index == last { most } else { table.function.at(index as f64 + 1.0 + error) };
+            (f64::from(*entry) - low).max(high - f64::from(*entry))
+        };
+        table.entries.iter().enumerate().map(off).fold(0.0, f64::max)
+    }
+
+    #[test]
+    fn no_entry_errs_more_than_the_bound() {
+        let mut checked = 0;
+        for error in [0.0, 0.25, 0.999, 1.0, 1.5, 7.3, 600.0, 1e300] {
+            for bits in [1, 4, 8, 10] {
+                for (exponent, gloss, doubled) in
+                    [(1.0, 0, false), (7.5, 1, true), (60.0, 3, false), (500.0, 0, true)]
+                {
+                    let light = Highlight { bits, gloss, exponent, doubled, top: 300.0, most: 255.0 };
+                    let table = IndexTable::new(bits, light);
+                    assert_eq!(table.error(error), of_all(&table, error), "{light:?} {error}");
+                    checked += 1;
+                }
+                let light = Diffuse { bits, base: 20.0, slope: 260.0, most: 255.0 };
+                for table in [IndexTable::new(bits, light), IndexTable::from_least(bits, light)] {
+                    assert_eq!(table.error(error), of_all(&table, error), "{light:?} {error}");
+                    checked += 1;
+                }
+            }
+        }
+        assert_eq!(checked, 8 * 4 * 6);
     }
 
     /// Bound without the rounding of the entries: half of the steepest bin.
