@@ -5,30 +5,33 @@ use std::io::{BufRead as _, BufReader};
 use std::net::TcpStream;
 use std::path::Path;
 use std::process::{Child, Command, Stdio};
+use std::sync::{Arc, Mutex, PoisonError, Weak};
 use std::time::{Duration, Instant};
 use tempfile::TempDir;
 use tungstenite::stream::MaybeTlsStream;
 use tungstenite::{Message, WebSocket};
 
-/// A browser with one page.
-pub struct Browser {
+/// The program. The tests that run at a time share one, which ends with the last of them.
+struct Chromium {
     child: Child,
     _profile: TempDir,
-    socket: WebSocket<MaybeTlsStream<TcpStream>>,
-    session: String,
-    asked: u64,
-    /// Messages of the console, exceptions, entries of the log.
-    pub said: Vec<String>,
-    /// Addresses that were asked for, but the page itself and what stands in it.
-    pub requests: Vec<String>,
+    /// Of its DevTools socket.
+    address: String,
 }
 
-/// Longest wait for an answer.
-const PATIENCE: Duration = Duration::from_secs(120);
+static RUNNING: Mutex<Weak<Chromium>> = Mutex::new(Weak::new());
 
-impl Browser {
-    /// Starts one, off the network.
-    pub fn start() -> Browser {
+impl Chromium {
+    fn running() -> Arc<Chromium> {
+        let mut running = RUNNING.lock().unwrap_or_else(PoisonError::into_inner);
+        running.upgrade().unwrap_or_else(|| {
+            let started = Arc::new(Chromium::start());
+            *running = Arc::downgrade(&started);
+            started
+        })
+    }
+
+    fn start() -> Chromium {
         let profile = tempfile::tempdir().expect("a folder");
         let child = Command::new("chromium")
             .args([
@@ -51,17 +54,50 @@ impl Browser {
         let address = lines.find_map(|line| line.strip_prefix("DevTools listening on ").map(str::to_owned));
         let address = address.expect("chromium says where it listens");
         std::thread::spawn(move || lines.for_each(drop));
-        let (socket, _) = tungstenite::connect(&address).expect("the DevTools socket");
+        Chromium { child, _profile: profile, address }
+    }
+}
+
+impl Drop for Chromium {
+    fn drop(&mut self) {
+        // It may be gone already.
+        let _ = self.child.kill();
+        let _ = self.child.wait();
+    }
+}
+
+/// A browser with one page, which has no cookies, storage or cache of other pages.
+pub struct Browser {
+    _chromium: Arc<Chromium>,
+    socket: WebSocket<MaybeTlsStream<TcpStream>>,
+    session: String,
+    asked: u64,
+    /// Messages of the console, exceptions, entries of the log.
+    pub said: Vec<String>,
+    /// Addresses that were asked for, but the page itself and what stands in it.
+    pub requests: Vec<String>,
+}
+
+/// Longest wait for an answer.
+const PATIENCE: Duration = Duration::from_secs(120);
+
+impl Browser {
+    /// Opens one, off the network.
+    pub fn start() -> Browser {
+        let chromium = Chromium::running();
+        let (socket, _) = tungstenite::connect(&chromium.address).expect("the DevTools socket");
         let mut browser = Browser {
-            child,
-            _profile: profile,
+            _chromium: chromium,
             socket,
             session: String::new(),
             asked: 0,
             said: Vec::new(),
             requests: Vec::new(),
         };
-        let target = browser.ask("Target.createTarget", json!({ "url": "about:blank" }));
+        // The page ends with the socket.
+        let context = browser.ask("Target.createBrowserContext", json!({ "disposeOnDetach": true }));
+        let page = json!({ "url": "about:blank", "browserContextId": context["browserContextId"] });
+        let target = browser.ask("Target.createTarget", page);
         let attach = json!({ "targetId": target["targetId"], "flatten": true });
         let session = browser.ask("Target.attachToTarget", attach);
         browser.session = session["sessionId"].as_str().expect("a session").to_owned();
@@ -171,13 +207,5 @@ impl Browser {
     pub fn is_quiet(&self) {
         assert!(self.said.is_empty(), "the page says {:?}", self.said);
         assert!(self.requests.is_empty(), "the page asks for {:?}", self.requests);
-    }
-}
-
-impl Drop for Browser {
-    fn drop(&mut self) {
-        // It may be gone already.
-        let _ = self.child.kill();
-        let _ = self.child.wait();
     }
 }
