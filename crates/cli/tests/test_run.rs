@@ -165,6 +165,12 @@ fn the_run_compiles_by_its_own_wrapper_or_the_callers() {
     }
 }
 
+#[test]
+fn temporary_files_lie_where_the_caller_wants_them() {
+    let (ended, text) = run("true", "echo \"in <$TMPDIR>\"", "true");
+    assert!(ended == Some(0) && text.contains("/temporary>"), "{text}");
+}
+
 /// What `tests/rustc` hands to the compiler for a crate of this package and name.
 fn compiled(package: &str, name: &str, arguments: &str) -> String {
     let mut command = Command::new(root().join("tests/rustc"));
