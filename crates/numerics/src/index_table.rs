@@ -256,6 +256,18 @@ mod tests {
     }
 
     #[test]
+    fn the_first_and_the_last_entry_stand_for_all_beyond() {
+        let light = Highlight { bits: 4, gloss: 3, exponent: 20.0, doubled: false, top: 300.0, most: 255.0 };
+        let table = IndexTable::new(4, light);
+        let middle = |low: f64, high: f64| ((low + high) / 2.0).round() as u32;
+        assert_eq!(table.entries()[0], middle(0.0, light.at(1.0)));
+        assert_ne!(table.entries()[0], middle(light.at(0.0), light.at(1.0)), "the first bin begins at 0");
+        assert_eq!(table.entries()[1], middle(light.at(1.0), light.at(2.0)));
+        let dim = Diffuse { bits: 4, base: 0.0, slope: 100.0, most: 255.0 };
+        assert_eq!(IndexTable::new(4, dim).entries()[15], middle(dim.at(15.0), 100.0));
+    }
+
+    #[test]
     fn ambient_light_alone_is_exact_and_too_much_is_cut() {
         let light = Diffuse { bits: 9, base: 25.5, slope: 204.0, most: 255.0 };
         let table = IndexTable::from_least(9, light);
