@@ -80,7 +80,7 @@ fn the_python_module_is_the_one_of_the_test_build() {
     ] {
         let mut command = Command::new(root().join("tests/python"));
         command.args(asked).env("PATH", &path).env("CARGO", "tests/python").env("PYO3_PYTHON", "python");
-        let output = command.env("OPTIONS", "--release --all").output().unwrap();
+        let output = command.env("EDGEWALK_MODULE_OF", "--release --all").output().unwrap();
         assert_eq!(String::from_utf8_lossy(&output.stdout), called);
         assert!(output.status.success());
     }

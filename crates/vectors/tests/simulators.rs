@@ -138,8 +138,7 @@ fn twelve_machines_in_every_tool() {
     twelve_machines(|_| Tools { simulators: &Simulator::ALL, synthesis: true });
 }
 
-/// A machine with BLEND in both simulators, one that takes 296,000 clocks in Verilator; BLEND and DEPTH of both alone
-/// in Icarus, mixing and adding.
+/// A machine with BLEND in both simulators, one in Verilator; BLEND and DEPTH of both alone in Icarus, mixing and adding.
 #[test]
 fn machines_with_blend_replay_and_are_clean() {
     let machines: Vec<_> = common::glass().into_iter().skip(2).step_by(3).collect();
@@ -254,8 +253,7 @@ fn machines_with_lines_replay_and_are_clean() {
     assert!(done.len() == 3 && done.iter().all(|checked| *checked > 3000), "{done:?}");
 }
 
-/// A machine with SHADOW in both simulators, one that takes 510,000 clocks in Verilator; SHADOW and PROJECT of both
-/// alone in Icarus.
+/// A machine with SHADOW in both simulators, one in Verilator; SHADOW and PROJECT of both alone in Icarus.
 #[test]
 fn machines_with_shadow_replay_and_are_clean() {
     let all = common::lights().into_iter().enumerate();

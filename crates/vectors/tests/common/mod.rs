@@ -90,7 +90,7 @@ pub fn small() -> Plan {
     })
 }
 
-/// The same with four lanes in SETUP: for what comes after it. With one lane SETUP takes two thirds of all clocks and more.
+/// The same with four lanes in SETUP: for what comes after it. With one lane a suite takes two to three times the clocks.
 pub fn quick() -> Machine {
     Machine { lanes: 4, ..Machine::clone(&small()) }
 }
