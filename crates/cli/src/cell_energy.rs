@@ -1,8 +1,8 @@
 //! Energy of a machine in standard cells while it draws a frame: for `energy`, and for tables of machines.
 
 use crate::cost::cache_folder;
-use crate::scratch::Scratch;
 use anyhow::{Context, Result, anyhow};
+use edgewalk_files::Scratch;
 use edgewalk_host::port::PortFrame;
 use edgewalk_machine::Plan;
 use edgewalk_model::{Counters, Pass};

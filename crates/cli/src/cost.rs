@@ -1,9 +1,9 @@
 //! Synthesis of one machine after another, for sweeps and comparisons.
 
-use crate::scratch::Scratch;
 use anyhow::{Context, Result, anyhow};
 use edgewalk_explore::sweep::definition::Synthesis;
 use edgewalk_explore::sweep::row::{Cost, Status};
+use edgewalk_files::Scratch;
 use edgewalk_machine::Plan;
 use edgewalk_synth::{Cache, Design, Flow, Outcome, Part, Target};
 use edgewalk_tool::Stop;

@@ -1,7 +1,7 @@
 //! The machine as files of Verilog.
 
-use crate::staging::Staging;
 use anyhow::{Result, anyhow};
+use edgewalk_files::Staging;
 use edgewalk_machine::Plan;
 use edgewalk_vectors::write::core;
 

@@ -10,7 +10,6 @@
 
 #![deny(clippy::print_stdout, clippy::print_stderr)] // they panic where they cannot write; see talk.rs
 
-mod arrays;
 mod cell_energy;
 mod commands;
 mod cost;
@@ -26,14 +25,11 @@ mod junit;
 mod lamps;
 mod machine_args;
 mod own;
-mod picture;
 mod pictures;
 mod progress;
-mod scratch;
 mod shading_report;
 mod shadows;
 mod shell;
-mod staging;
 mod suites;
 mod talk;
 mod triangles;
@@ -120,7 +116,7 @@ fn main() -> ExitCode {
             if talk.quiet {
                 progress::be_quiet();
             }
-            (talk, scratch::watch_signals().and_then(|()| run(&cli, talk)))
+            (talk, edgewalk_files::watch_signals().and_then(|()| run(&cli, talk)))
         }
         Err(page) => {
             let talk = Talk { json: std::env::args_os().any(|word| word == "--json"), quiet: false };

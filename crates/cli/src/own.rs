@@ -1,7 +1,7 @@
 //! A user's own design in place of ours: read, and wired to a unit of the machine before any simulator starts.
 
-use crate::scratch::Scratch;
 use anyhow::Result;
+use edgewalk_files::Scratch;
 use edgewalk_machine::Plan;
 use edgewalk_vectors::dut::{self, Dut, DutError, PortsError, Wiring};
 use edgewalk_vectors::{Interface, Unit};

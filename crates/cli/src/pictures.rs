@@ -3,10 +3,10 @@
 use crate::engine::{Engine, Raster, draw_port};
 use crate::input::to_port;
 use crate::lamps::{Added, added};
-use crate::picture::Png;
-use crate::staging::Staging;
 use crate::verdict::Verdict;
 use anyhow::{Context as _, Result};
+use edgewalk_files::Png;
+use edgewalk_files::Staging;
 use edgewalk_host::draw;
 use edgewalk_host::reach::reach;
 use edgewalk_host::shade::apart;

@@ -1,9 +1,9 @@
 //! Suites of vectors: those of a machine, that of an input, and their directories.
 
 use crate::input::PortFrame;
-use crate::staging::Staging;
 use crate::{Talk, jobs, progress};
 use anyhow::{Result, anyhow, ensure};
+use edgewalk_files::Staging;
 use edgewalk_machine::{Plan, Unknown};
 use edgewalk_scene::InputKind;
 use edgewalk_vectors::suites::input::Sent;

@@ -26,12 +26,13 @@ const LAYERS: &[(&str, &[&str])] = &[
     ("synth", &["machine", "netlist", "verilog", "rtl", "tool"]),
     ("bench", &["machine", "model", "netlist", "verilog", "jit", "rtl", "lockstep", "tool"]),
     ("explore", &["numerics", "machine", "scene", "golden", "model", "host", "judge"]),
+    ("files", &["host", "judge", "tool"]),
     (
         "cli",
         &[
             "numerics", "machine", "scene", "golden", "model", "host", "judge", "gallery", "explain",
             "netlist", "verilog", "jit", "rtl", "lockstep", "tool", "vectors", "replay", "synth", "bench",
-            "explore",
+            "explore", "files",
         ],
     ),
     ("capi", &["machine", "scene", "model", "lockstep", "host"]),

@@ -115,7 +115,7 @@ fn check(file: Vec<u8>, expected: &[[u128; 4]]) {
 #[test]
 fn vcd_reads_back() {
     let mut file = Vec::new();
-    let mut trace = VcdTrace::new(&mut file, &Simulator::new(&counters()), "top", &LABELS).unwrap();
+    let mut trace = VcdTrace::new(Box::new(&mut file), &Simulator::new(&counters()), "top", &LABELS).unwrap();
     let expected = run(|sim| trace.sample(sim).unwrap());
     trace.finish().unwrap();
     assert!(String::from_utf8_lossy(&file).starts_with("$timescale 1 ns $end\n$scope module top $end\n"));

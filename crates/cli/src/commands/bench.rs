@@ -3,11 +3,11 @@
 use crate::document::line;
 use crate::input::{Source, to_port};
 use crate::machine_args::MachineArgs;
-use crate::scratch::Scratch;
 use crate::verdict::Verdict;
 use crate::{Talk, progress};
 use anyhow::Result;
 use edgewalk_bench::{Engine, Job, Row, Table};
+use edgewalk_files::Scratch;
 use edgewalk_model::Waits;
 
 /// Time every engine on a triangle file, scene or mesh.

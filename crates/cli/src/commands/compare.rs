@@ -1,20 +1,19 @@
 //! `edgewalk compare`: two machines on one input, by what differs; or any number of both, by what their features cost.
 
-mod difference;
 mod features;
 mod page;
 
 use crate::Talk;
 use crate::cost::{SynthArgs, Synthesiser};
 use crate::machine_args::MachineArgs;
-use crate::picture::Png;
 use crate::progress::reading;
-use crate::staging::Staging;
 use crate::verdict::Verdict;
 use anyhow::{Context, Result, anyhow};
-use difference::First;
 use edgewalk_explore::sweep::equation::{Equation, Measure};
 use edgewalk_explore::sweep::shading::{SHADINGS, named, of_machine};
+use edgewalk_files::Png;
+use edgewalk_files::Staging;
+use edgewalk_files::difference::First;
 use edgewalk_golden::Shading;
 use edgewalk_host::draw;
 use edgewalk_host::input::{Input, Shaded};

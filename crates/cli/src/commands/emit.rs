@@ -4,9 +4,9 @@ use crate::Talk;
 use crate::design::{own, write_design};
 use crate::document::document;
 use crate::machine_args::MachineArgs;
-use crate::staging::Staging;
 use crate::verdict::Verdict;
 use anyhow::Result;
+use edgewalk_files::Staging;
 use serde_json::json;
 use std::path::PathBuf;
 

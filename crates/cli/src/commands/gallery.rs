@@ -1,11 +1,12 @@
 //! `edgewalk gallery`: a page of exhibits, each a system or a fault with pictures, cause and figures.
 
+use crate::Talk;
 use crate::document::document;
 use crate::progress::bar;
-use crate::staging::Staging;
 use crate::verdict::Verdict;
-use crate::{Talk, picture};
 use anyhow::{Result, anyhow};
+use edgewalk_files::Staging;
+use edgewalk_files::picture;
 use edgewalk_gallery::{EXHIBITS, Exhibit, Image, Maker, View};
 use edgewalk_machine::Unknown;
 use edgewalk_replay::lesson::markdown::wrapped;

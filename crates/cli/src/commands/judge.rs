@@ -1,14 +1,13 @@
 //! `edgewalk judge`: the picture of another rasterizer beside golden's, or beside a machine's.
 
-mod arrays;
-
 use crate::document::document;
 use crate::input::{Source, to_port};
 use crate::machine_args::MachineArgs;
-use crate::staging::Staging;
 use crate::verdict::Verdict;
-use crate::{Talk, junit, picture};
+use crate::{Talk, junit};
 use anyhow::{Result, ensure};
+use edgewalk_files::Staging;
+use edgewalk_files::{foreign, picture};
 use edgewalk_host::draw;
 use edgewalk_judge::outside::{self, Asked, Cause, Judgement, Rule, Tolerance};
 use edgewalk_machine::{Fill, Plan};
@@ -129,7 +128,7 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
     let (machine, frame) = source.on_its_screen(machine)?;
     let size = (machine.width, machine.height);
     let bits = [args.depth_bits.unwrap_or(machine.z.bits), args.color_bits.unwrap_or(machine.color.bits)];
-    let picture = arrays::read(&args.pictures, size, bits)?;
+    let picture = foreign::read(&args.pictures, size, bits)?;
     let shaded = frame.shading.is_some() && args.color_lsb.is_none() && picture.rgb.is_some();
     ensure!(
         !shaded || args.against == Against::Machine,
@@ -164,7 +163,7 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
     if let Some(out) = out {
         out.write("judge.json", document("judge", &report)?)?;
         out.write("judge.xml", report.junit())?;
-        picture::write(&out, "differences.png", size.0, size.1, |pixel| color(report.judgement.map[pixel]))?;
+        picture::write(&out, "differences.png", size.0, size.1, &|pixel| color(report.judgement.map[pixel]))?;
         out.publish(&FILES)?;
     }
     talk.say(|| document("judge", &report), || report.text())?;

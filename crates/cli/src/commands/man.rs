@@ -2,9 +2,9 @@
 
 use crate::Talk;
 use crate::document::document;
-use crate::staging::Staging;
 use crate::verdict::Verdict;
 use anyhow::Result;
+use edgewalk_files::Staging;
 use serde_json::json;
 use std::path::PathBuf;
 

@@ -10,14 +10,14 @@ use crate::engine::{Engine, from_golden, golden_fill};
 use crate::fast_phong::{FastPhongArgs, FastPhongReport};
 use crate::input::{Shading, Source};
 use crate::machine_args::MachineArgs;
-use crate::picture;
 use crate::pictures::{FILES, pictures};
 use crate::progress::spinner;
 use crate::shading_report::ShadingReport;
 use crate::shadows::Shadows;
-use crate::staging::Staging;
 use crate::verdict::Verdict;
 use anyhow::{Result, anyhow};
+use edgewalk_files::Staging;
+use edgewalk_files::picture;
 use edgewalk_golden::{HiddenLines, wireframe};
 use edgewalk_judge::report::Report;
 use edgewalk_machine::Plan;
@@ -201,7 +201,7 @@ fn shaded(args: &Args, machine: &Plan, talk: Talk) -> Result<Verdict> {
     let (w, h) = (surface.width, surface.height);
     picture::write_rgb(&out, "image.png", w, h, &drawn.picture.rgb)?;
     picture::write_rgb(&out, "truth.png", w, h, &drawn.truth)?;
-    picture::write_shading_error(&out, "shading_error.png", (w, h), &error)?;
+    picture::write_heat(&out, "shading_error.png", (w, h), &error.map, error.max)?;
     let mut report = ShadingReport::new(&args.source, &scene, &surface, &error);
     if let Some(order) = order {
         report = report.blended(order);
@@ -209,7 +209,7 @@ fn shaded(args: &Args, machine: &Plan, talk: Talk) -> Result<Verdict> {
     if let Some(fast) = &fast {
         let from_phong = fast.error_to_phong();
         picture::write_rgb(&out, "phong.png", w, h, &fast.phong)?;
-        picture::write_shading_error(&out, "phong_error.png", (w, h), &from_phong)?;
+        picture::write_heat(&out, "phong_error.png", (w, h), &from_phong.map, from_phong.max)?;
         report = report.with(FastPhongReport::new(&args.fast_phong, &scene, &surface, fast, &from_phong));
     }
     out.write("report.json", document("shading", &report)?)?;

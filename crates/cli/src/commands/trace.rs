@@ -6,10 +6,10 @@ use crate::Talk;
 use crate::document::document;
 use crate::input::{PortFrame, Source, to_port};
 use crate::machine_args::MachineArgs;
-use crate::staging::Staging;
 use crate::suites::of_input;
 use crate::verdict::Verdict;
 use anyhow::{Context, Result, anyhow, ensure};
+use edgewalk_files::Staging;
 use edgewalk_lockstep::StallKind;
 use edgewalk_machine::{Activity, Pass, Plan};
 use edgewalk_netlist::{FstTrace, Labels, Simulator, Transitions, UnitTransitions, VcdTrace};
@@ -76,7 +76,7 @@ const KINDS: [&str; 3] = ["vcd", "fst", "saif"];
 
 /// A file being written.
 enum Wave {
-    Vcd(VcdTrace<BufWriter<File>>),
+    Vcd(VcdTrace<'static>),
     Fst(Box<FstTrace<BufWriter<File>>>),
     Saif(Box<Transitions>, BufWriter<File>),
 }
@@ -263,7 +263,7 @@ fn sample(
         let names = Activity::ALL.map(Activity::name);
         let labels = [Labels { signal: "activity", names: &names }];
         *wave = Some(match kind {
-            "vcd" => Wave::Vcd(VcdTrace::new(file, sim, TOP, &labels)?),
+            "vcd" => Wave::Vcd(VcdTrace::new(Box::new(file), sim, TOP, &labels)?),
             "saif" => Wave::Saif(Box::new(Transitions::new(sim, TOP)), file),
             _ => Wave::Fst(Box::new(FstTrace::new(file, sim, TOP, &labels)?)),
         });

@@ -3,10 +3,10 @@
 use crate::document::line;
 use crate::input::Source;
 use crate::machine_args::MachineArgs;
-use crate::staging::Staging;
 use crate::verdict::Verdict;
 use crate::{Talk, talk};
 use anyhow::{Context as _, Result};
+use edgewalk_files::Staging;
 use edgewalk_scene::{InputKind, TJoint, triangle_file};
 use serde_json::json;
 use std::path::{Path, PathBuf};

@@ -3,11 +3,11 @@
 use crate::document::document;
 use crate::input::{Source, to_port};
 use crate::machine_args::MachineArgs;
-use crate::staging::Staging;
 use crate::suites::{self, Set, check_unit, of_input, only, stalls};
 use crate::verdict::Verdict;
 use crate::{Talk, own};
 use anyhow::{Result, anyhow};
+use edgewalk_files::Staging;
 use edgewalk_vectors::dut::Wiring;
 use edgewalk_vectors::{SUITES, StallKind, Suite, Tables, Unit};
 use serde_json::json;

@@ -8,20 +8,20 @@ use super::watch::{CYCLE, Labels, Scope, Watch, everything};
 use crate::simulate::Simulator;
 
 /// A VCD being written.
-pub struct VcdTrace<W: Write> {
-    writer: Writer<W>,
+pub struct VcdTrace<'w> {
+    writer: Writer<Box<dyn Write + 'w>>,
     watch: Watch,
     clk: IdCode,
     ids: Vec<IdCode>,
     text_ids: Vec<IdCode>,
 }
 
-impl<W: Write> VcdTrace<W> {
+impl<'w> VcdTrace<'w> {
     /// Writes the header; `top` is the name of the outermost scope.
     ///
     /// # Errors
     /// Those of `out`.
-    pub fn new(out: W, sim: &Simulator, top: &str, labels: &[Labels]) -> io::Result<Self> {
+    pub fn new(out: Box<dyn Write + 'w>, sim: &Simulator, top: &str, labels: &[Labels]) -> io::Result<Self> {
         let (scope, watch) = everything(sim, top, labels);
         let mut writer = Writer::new(out);
         writer.timescale(1, TimescaleUnit::NS)?;

@@ -1,11 +1,11 @@
 //! What differs between two machines, as text and as JSON.
 
-use super::difference::Pixels;
 use crate::document::document;
 use crate::verdict::Verdict;
 use anyhow::Result;
 use edgewalk_explore::sweep::equation::Distance;
 use edgewalk_explore::sweep::row::{Cost, causes, keys};
+use edgewalk_files::difference::Pixels;
 use edgewalk_judge::report::Report;
 use edgewalk_machine::Plan;
 use edgewalk_model::Waits;

@@ -1,7 +1,7 @@
 //! A user's command, run on a design in a folder of its own.
 
-use crate::scratch::Scratch;
 use anyhow::{Context, Result, anyhow};
+use edgewalk_files::Scratch;
 use edgewalk_tool::{Stop, run};
 use sha2::{Digest, Sha256};
 use std::fs;

@@ -1,10 +1,10 @@
 //! What `edgewalk raster` writes, band by band as it is drawn: the arrays, the picture, the report.
 
-use crate::arrays::Array;
 use crate::engine::Raster;
-use crate::picture::Png;
-use crate::staging::Staging;
 use anyhow::{Context, Result, bail};
+use edgewalk_files::Array;
+use edgewalk_files::Png;
+use edgewalk_files::Staging;
 use edgewalk_host::extra::{self, Values};
 use edgewalk_judge::report::Report;
 use edgewalk_machine::Plan;

@@ -1,15 +1,16 @@
 //! `render SCENE --shadows map` on a machine: each light's part by itself beside golden, and all of them as passes of one picture.
 
 use super::Args;
+use crate::Talk;
 use crate::document::document;
 use crate::engine::{Engine, draw, draw_port, draw_waiting};
 use crate::input::{Shading, to_port};
 use crate::pictures::FILES;
 use crate::shadows::Shadows;
-use crate::staging::Staging;
 use crate::verdict::Verdict;
-use crate::{Talk, picture};
 use anyhow::{Context as _, Result, anyhow};
+use edgewalk_files::Staging;
+use edgewalk_files::picture;
 use edgewalk_host::lights::{are_added, frames, in_passes, sum};
 use edgewalk_host::reach::reach;
 use edgewalk_judge::compare::compare_for;

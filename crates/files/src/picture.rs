@@ -2,7 +2,7 @@
 
 mod scale;
 
-use crate::staging::Staging;
+use crate::Staging;
 use anyhow::{Context, Result};
 use png::StreamWriter;
 use std::cell::RefCell;
@@ -12,22 +12,28 @@ use std::rc::Rc;
 
 /// Writes colours in 0 to 1 as an 8-bit PNG.
 pub fn write_rgb(out: &Staging, name: &str, width: u32, height: u32, rgb: &[[f64; 3]]) -> Result<()> {
-    write(out, name, width, height, |i| bytes(rgb[i]))
+    let mut picture = Png::create(out, name, width, height)?;
+    rgb.chunks(width as usize).try_for_each(|line| picture.extend_rgb(line))?;
+    picture.finish()
 }
 
-/// Writes an error in LSB as a heat map: black none, blue to yellow up to `full` LSB, red above.
+/// Writes errors as a heat map: black none, blue to yellow up to the largest, `max`.
 pub fn write_heat(
     out: &Staging,
     name: &str,
     (width, height): (u32, u32),
-    lsb: &[f64],
-    full: f64,
+    errors: &[f64],
+    max: f64,
 ) -> Result<()> {
-    write(out, name, width, height, |i| heat(lsb[i] / full))
+    // Without an error any scale does.
+    let full = if max > 0.0 { max } else { 1.0 };
+    let mut picture = Png::create(out, name, width, height)?;
+    errors.chunks(width as usize).try_for_each(|line| picture.extend_heat(line, full))?;
+    picture.finish()
 }
 
 /// The colour of an error, 1 being the largest that is expected.
-pub fn heat(error: f64) -> [u8; 3] {
+fn heat(error: f64) -> [u8; 3] {
     match error {
         0.0 => [0, 0, 0],
         e if e <= 1.0 => [(e * 255.0) as u8, (e * 220.0) as u8, ((1.0 - e) * 160.0) as u8],
@@ -39,7 +45,7 @@ pub fn heat(error: f64) -> [u8; 3] {
 /// Writes numbers from -1 to 1 as blue over black to orange, with the scale underneath.
 pub fn write_signed(out: &Staging, name: &str, (width, height): (u32, u32), map: &[f64]) -> Result<()> {
     let below = scale::of(width);
-    write(out, name, width, height + scale::HEIGHT, |i| match map.get(i) {
+    write(out, name, width, height + scale::HEIGHT, &|i| match map.get(i) {
         Some(value) => signed(*value),
         None => below[i - map.len()],
     })
@@ -52,87 +58,54 @@ fn signed(value: f64) -> [u8; 3] {
     full.map(|channel| (channel * strength) as u8)
 }
 
-/// The heat map of a shading system, yellow at its largest error.
-pub fn write_shading_error(
-    out: &Staging,
-    name: &str,
-    size: (u32, u32),
-    error: &edgewalk_golden::ShadingError,
-) -> Result<()> {
-    // Without an error any scale does.
-    let full = if error.max > 0.0 { error.max } else { 1.0 };
-    write_heat(out, name, size, &error.map, full)
-}
-
 /// Writes an 8-bit PNG, pixel by pixel.
 pub fn write(
     out: &Staging,
     name: &str,
     width: u32,
     height: u32,
-    pixel: impl Fn(usize) -> [u8; 3],
+    pixel: &dyn Fn(usize) -> [u8; 3],
 ) -> Result<()> {
     let mut picture = Png::create(out, name, width, height)?;
     let line = width as usize;
     for y in 0..height as usize {
-        picture.extend((y * line..(y + 1) * line).map(&pixel))?;
+        let bytes: Vec<u8> = (y * line..(y + 1) * line).flat_map(pixel).collect();
+        picture.extend(&bytes)?;
     }
     picture.finish()
 }
 
-/// An 8-bit picture on its way into a file or into memory, line by line.
-pub struct Png<W: io::Write + 'static = BufWriter<File>> {
+/// An 8-bit picture on its way into a file, line by line.
+pub struct Png {
     /// For messages.
     name: String,
-    file: Shared<W>,
-    stream: StreamWriter<'static, Shared<W>>,
+    file: Shared,
+    stream: StreamWriter<'static, Shared>,
 }
 
 impl Png {
     /// A picture of that size in a file, still empty.
     pub fn create(out: &Staging, name: &str, width: u32, height: u32) -> Result<Self> {
-        Png::begin(out.create(name)?, out.name(name), (width, height), png::Compression::Fast)
-    }
-}
-
-impl Png<Vec<u8>> {
-    /// A picture of that size in memory, still empty.
-    pub fn in_memory(size: (u32, u32)) -> Result<Self> {
-        Png::begin(Vec::new(), "a picture".to_owned(), size, png::Compression::Default)
-    }
-
-    /// The bytes of its file, if all pixels are there.
-    pub fn bytes(self) -> Result<Vec<u8>> {
-        let file = Rc::clone(&self.file.0);
-        self.finish()?;
-        Ok(file.take())
-    }
-}
-
-impl<W: io::Write + 'static> Png<W> {
-    fn begin(to: W, name: String, (width, height): (u32, u32), how: png::Compression) -> Result<Self> {
-        let file = Shared(Rc::new(RefCell::new(to)));
-        let mut encoder = png::Encoder::new(file.clone(), width, height);
-        encoder.set_color(png::ColorType::Rgb);
-        encoder.set_compression(how);
-        let stream = encoder.write_header().and_then(png::Writer::into_stream_writer);
+        let file = Shared(Rc::new(RefCell::new(out.create(name)?)));
+        let name = out.name(name);
+        let stream = begun(file.clone(), (width, height), png::Compression::Fast)
+            .and_then(png::Writer::into_stream_writer);
         Ok(Png { stream: stream.with_context(|| name.clone())?, name, file })
     }
 
     /// The next pixels, colours in 0 to 1.
     pub fn extend_rgb(&mut self, rgb: &[[f64; 3]]) -> Result<()> {
-        self.extend(rgb.iter().map(|color| bytes(*color)))
+        self.extend(&rgb_bytes(rgb))
     }
 
-    /// The next pixels of a heat map of errors in LSB, as [`write_heat`] colours them.
+    /// The next pixels of a heat map of errors in LSB, black none, blue to yellow up to `full`, red above.
     pub fn extend_heat(&mut self, lsb: &[f64], full: f64) -> Result<()> {
-        self.extend(lsb.iter().map(|error| heat(error / full)))
+        self.extend(&heat_bytes(lsb, full))
     }
 
-    /// The next pixels.
-    fn extend(&mut self, pixels: impl Iterator<Item = [u8; 3]>) -> Result<()> {
-        let bytes: Vec<u8> = pixels.flatten().collect();
-        self.stream.write_all(&bytes).with_context(|| self.name.clone())
+    /// The next pixels, three bytes each.
+    fn extend(&mut self, bytes: &[u8]) -> Result<()> {
+        self.stream.write_all(bytes).with_context(|| self.name.clone())
     }
 
     /// To the disk, if all pixels are there.
@@ -144,16 +117,31 @@ impl<W: io::Write + 'static> Png<W> {
     }
 }
 
-/// The file, which has to be flushed when the encoder is done with it.
-struct Shared<W>(Rc<RefCell<W>>);
-
-impl<W> Clone for Shared<W> {
-    fn clone(&self) -> Self {
-        Shared(Rc::clone(&self.0))
-    }
+/// The bytes of a PNG file of these pixels, three bytes each.
+pub fn in_memory(size: (u32, u32), pixels: &[u8]) -> Result<Vec<u8>> {
+    let mut file = Vec::new();
+    let mut picture = begun(&mut file, size, png::Compression::Default)?;
+    picture.write_image_data(pixels)?;
+    picture.finish()?;
+    Ok(file)
 }
 
-impl<W: io::Write> io::Write for Shared<W> {
+fn begun<W: io::Write>(
+    to: W,
+    (width, height): (u32, u32),
+    how: png::Compression,
+) -> Result<png::Writer<W>, png::EncodingError> {
+    let mut encoder = png::Encoder::new(to, width, height);
+    encoder.set_color(png::ColorType::Rgb);
+    encoder.set_compression(how);
+    encoder.write_header()
+}
+
+/// The file, which has to be flushed when the encoder is done with it.
+#[derive(Clone)]
+struct Shared(Rc<RefCell<BufWriter<File>>>);
+
+impl io::Write for Shared {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
         self.0.borrow_mut().write(bytes)
     }
@@ -163,9 +151,14 @@ impl<W: io::Write> io::Write for Shared<W> {
     }
 }
 
-/// A colour in 0 to 1 in 8 bits.
-pub fn bytes(color: [f64; 3]) -> [u8; 3] {
-    color.map(|value| (value.clamp(0.0, 1.0) * 255.0).round() as u8)
+/// Colours in 0 to 1 in 8 bits.
+pub fn rgb_bytes(rgb: &[[f64; 3]]) -> Vec<u8> {
+    rgb.as_flattened().iter().map(|value| (value.clamp(0.0, 1.0) * 255.0).round() as u8).collect()
+}
+
+/// Errors in LSB in the colours of a heat map: black none, blue to yellow up to `full`, red above.
+pub fn heat_bytes(lsb: &[f64], full: f64) -> Vec<u8> {
+    lsb.iter().flat_map(|error| heat(error / full)).collect()
 }
 
 #[cfg(test)]

@@ -1,8 +1,8 @@
 //! The pixels in which two pictures differ. Two large pictures do not fit into memory: each comes from the top in bands, and the first waits
 //! on the disk for the second. So do the differences, whose largest is known only at the end.
 
-use crate::picture::Png;
-use crate::staging::Staging;
+use crate::Png;
+use crate::Staging;
 use anyhow::{Context, Result, anyhow};
 use edgewalk_host::raster::Raster;
 use std::fs::File;
