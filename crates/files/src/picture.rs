@@ -6,8 +6,7 @@ use crate::Staging;
 use anyhow::{Context, Result};
 use png::StreamWriter;
 use std::cell::RefCell;
-use std::fs::File;
-use std::io::{self, BufWriter, Write as _};
+use std::io::{self, Write as _};
 use std::rc::Rc;
 
 /// Writes colours in 0 to 1 as an 8-bit PNG.
@@ -75,7 +74,7 @@ pub fn write(
     picture.finish()
 }
 
-/// An 8-bit picture on its way into a file, line by line.
+/// An 8-bit picture on its way into a file or into memory, line by line.
 pub struct Png {
     /// For messages.
     name: String,
@@ -83,13 +82,41 @@ pub struct Png {
     stream: StreamWriter<'static, Shared>,
 }
 
+/// The bytes of a PNG file that is made in memory.
+pub struct InMemory(Rc<RefCell<Vec<u8>>>);
+
+impl InMemory {
+    /// The whole file, once its picture is finished.
+    pub fn take(self) -> Vec<u8> {
+        self.0.take()
+    }
+}
+
 impl Png {
     /// A picture of that size in a file, still empty.
     pub fn create(out: &Staging, name: &str, width: u32, height: u32) -> Result<Self> {
-        let file = Shared(Rc::new(RefCell::new(out.create(name)?)));
-        let name = out.name(name);
-        let stream = begun(file.clone(), (width, height), png::Compression::Fast)
-            .and_then(png::Writer::into_stream_writer);
+        let file = Rc::new(RefCell::new(out.create(name)?));
+        Png::begin(file, out.name(name), (width, height), png::Compression::Fast)
+    }
+
+    /// A picture of that size, still empty, and its file in memory.
+    pub fn in_memory(size: (u32, u32)) -> Result<(Self, InMemory)> {
+        let file = Rc::new(RefCell::new(Vec::new()));
+        let picture = Png::begin(file.clone(), "a picture".to_owned(), size, png::Compression::Default)?;
+        Ok((picture, InMemory(file)))
+    }
+
+    fn begin(
+        file: Rc<RefCell<dyn io::Write>>,
+        name: String,
+        (width, height): (u32, u32),
+        how: png::Compression,
+    ) -> Result<Self> {
+        let file = Shared(file);
+        let mut encoder = png::Encoder::new(file.clone(), width, height);
+        encoder.set_color(png::ColorType::Rgb);
+        encoder.set_compression(how);
+        let stream = encoder.write_header().and_then(png::Writer::into_stream_writer);
         Ok(Png { stream: stream.with_context(|| name.clone())?, name, file })
     }
 
@@ -117,29 +144,9 @@ impl Png {
     }
 }
 
-/// The bytes of a PNG file of these pixels, three bytes each.
-pub fn in_memory(size: (u32, u32), pixels: &[u8]) -> Result<Vec<u8>> {
-    let mut file = Vec::new();
-    let mut picture = begun(&mut file, size, png::Compression::Default)?;
-    picture.write_image_data(pixels)?;
-    picture.finish()?;
-    Ok(file)
-}
-
-fn begun<W: io::Write>(
-    to: W,
-    (width, height): (u32, u32),
-    how: png::Compression,
-) -> Result<png::Writer<W>, png::EncodingError> {
-    let mut encoder = png::Encoder::new(to, width, height);
-    encoder.set_color(png::ColorType::Rgb);
-    encoder.set_compression(how);
-    encoder.write_header()
-}
-
 /// The file, which has to be flushed when the encoder is done with it.
 #[derive(Clone)]
-struct Shared(Rc<RefCell<BufWriter<File>>>);
+struct Shared(Rc<RefCell<dyn io::Write>>);
 
 impl io::Write for Shared {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
@@ -152,12 +159,12 @@ impl io::Write for Shared {
 }
 
 /// Colours in 0 to 1 in 8 bits.
-pub fn rgb_bytes(rgb: &[[f64; 3]]) -> Vec<u8> {
+fn rgb_bytes(rgb: &[[f64; 3]]) -> Vec<u8> {
     rgb.as_flattened().iter().map(|value| (value.clamp(0.0, 1.0) * 255.0).round() as u8).collect()
 }
 
 /// Errors in LSB in the colours of a heat map: black none, blue to yellow up to `full`, red above.
-pub fn heat_bytes(lsb: &[f64], full: f64) -> Vec<u8> {
+fn heat_bytes(lsb: &[f64], full: f64) -> Vec<u8> {
     lsb.iter().flat_map(|error| heat(error / full)).collect()
 }
 

@@ -5,7 +5,7 @@ use edgewalk_explore::page::Pictures;
 use edgewalk_explore::sweep::shared::pixel_key;
 use edgewalk_explore::sweep::table::{Candidate, Table};
 use edgewalk_explore::sweep::{Point, Sweep};
-use edgewalk_files::picture;
+use edgewalk_files::Png;
 use edgewalk_host::draw;
 use edgewalk_host::port::to_port;
 use edgewalk_judge::beside::{Golden, Proved, beside};
@@ -37,19 +37,20 @@ fn drawn(sweep: &Sweep, point: &Point) -> Result<Option<Pictures>> {
     let Ok(plan) = &point.plan else { return Ok(None) };
     let frame = sweep.drawn(point).input.frame(plan)?;
     let (port, size) = (to_port(&frame, plan)?, (plan.width, plan.height));
-    let [mut colors, mut z_error, mut color_error] = [Vec::new(), Vec::new(), Vec::new()];
+    let [(mut picture, image), (mut depth, depth_image), (mut color, color_image)] =
+        [Png::in_memory(size)?, Png::in_memory(size)?, Png::in_memory(size)?];
     let proved = Proved { reach: None, shading: None };
     let draw = |lines, take: &mut dyn FnMut(_) -> _| draw::in_bands(plan, &port, Waits::Never, lines, take);
     beside(plan, &frame, &Golden::of(&frame, plan), proved, draw, |lines| {
-        colors.extend(picture::rgb_bytes(&lines.drawn.rgb));
-        z_error.extend(picture::heat_bytes(lines.z_error, 1.0));
-        color_error.extend(picture::heat_bytes(lines.color_error, 1.0));
-        Ok(())
+        picture.extend_rgb(&lines.drawn.rgb)?;
+        depth.extend_heat(lines.z_error, 1.0)?;
+        color.extend_heat(lines.color_error, 1.0)
     })?;
+    [picture, depth, color].into_iter().try_for_each(Png::finish)?;
     let images = vec![
-        ("picture", picture::in_memory(size, &colors)?),
-        ("depth error", picture::in_memory(size, &z_error)?),
-        ("colour error", picture::in_memory(size, &color_error)?),
+        ("picture", image.take()),
+        ("depth error", depth_image.take()),
+        ("colour error", color_image.take()),
     ];
     Ok(Some(Pictures { key: point.key.clone(), images }))
 }
