@@ -2,7 +2,7 @@
 //! pixel known.
 #![allow(clippy::unwrap_used)] // a test that unwraps nothing reports it
 
-use crate::support::npy;
+use crate::support::{colors, npy};
 use std::path::Path;
 use std::process::{Command, Output};
 use zune_png::PngDecoder;
@@ -157,4 +157,27 @@ fn the_heat_map_runs_from_blue_over_yellow_to_red() {
         if error > 1.0 { red += 1 } else { blue += 1 }
     }
     assert!(red > 0 && blue > 0, "{red} red, {blue} blue");
+}
+
+/// A heat map whose scale is its own largest error: some pixel is yellow, none is red, and others lie between.
+#[test]
+fn the_largest_error_is_yellow_where_a_picture_has_a_scale_of_its_own() {
+    let folder = tempfile::tempdir().unwrap();
+    let screen = ["--set", "screen.width=80", "--set", "screen.height=60", "-q", "--out", "out"];
+    run(
+        folder.path(),
+        &[&["render", "sphere", "--shading", "gouraud", "--engine", "golden"][..], &screen].concat(),
+    );
+    run(
+        folder.path(),
+        &[&["compare", "default", "default,shade.kind=fast-phong", "sphere"][..], &screen].concat(),
+    );
+    for name in ["shading_error.png", "difference.png"] {
+        let map = colors(&folder.path().join("out").join(name));
+        let count = |color: [u8; 3]| map.iter().filter(|pixel| **pixel == color).count();
+        let (none, yellow, red) = (count([0, 0, 0]), count([255, 220, 0]), count([255, 0, 0]));
+        println!("{name}: {none} without an error, {yellow} yellow, {red} red of {}", map.len());
+        assert_eq!(map.len(), 80 * 60, "{name}");
+        assert!(none > 0 && yellow > 0 && red == 0 && none + yellow < map.len(), "{name}");
+    }
 }
