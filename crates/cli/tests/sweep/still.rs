@@ -39,7 +39,8 @@ fn the_pictures_of_the_report_are_those_of_render() {
     let folder = tempfile::tempdir().unwrap();
     let sweep = ["sweep", "sphere", "--vary", "formats.z_fraction=6", "--out", "s", "--quiet"];
     assert_eq!(run(folder.path(), &sweep), (Some(0), String::new()));
-    run(folder.path(), &["render", "sphere", "--set", "formats.z_fraction=6", "--out", "r", "--quiet"]);
+    let render = ["render", "sphere", "--set", "formats.z_fraction=6", "--out", "r", "--quiet"];
+    assert_eq!(run(folder.path(), &render), (Some(0), String::new()));
     let page = std::fs::read_to_string(folder.path().join("s/report.html")).unwrap();
     let embedded = page.split("data:image/png;base64,").skip(1);
     let files = embedded.map(|rest| BASE64_STANDARD.decode(rest.split('"').next().unwrap()).unwrap());

@@ -2,9 +2,7 @@
 
 use crate::engine::Raster;
 use anyhow::{Context, Result, bail};
-use edgewalk_files::Array;
-use edgewalk_files::Png;
-use edgewalk_files::Staging;
+use edgewalk_files::{Array, Png, Staging};
 use edgewalk_host::extra::{self, Values};
 use edgewalk_judge::report::Report;
 use edgewalk_machine::Plan;
