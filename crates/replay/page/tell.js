@@ -5,6 +5,8 @@ class Tell {
     this.app = app;
     const { doc } = app;
     this.says = document.getElementById("says");
+    // Room for the sentences of every cycle, so that what stands below does not move.
+    this.says.style.setProperty("--room", `${12 + 1.8 * doc.units.length}em`);
     this.past = document.getElementById("past");
     this.names = doc.units.map((unit) => this.namesOf(unit));
     this.moments = [];

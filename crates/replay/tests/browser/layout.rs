@@ -44,7 +44,7 @@ fn nothing_overlaps_is_cut_or_moves() {
                 let places = browser.eval(&format!(
                     "Array.from({{ length: 50 }}, (_, k) => {{
                       app.go(Math.floor(k * {} / 49));
-                      return [...document.querySelectorAll('.card, .gutter, #cards, #planes .panel')].map((e) => {{
+                      return [...document.querySelectorAll('.card, .gutter, #cards, #planes .panel, #words-beside .panel')].map((e) => {{
                         const box = e.getBoundingClientRect(); return [box.left, box.top, box.width, box.height].map(Math.round); }}); }})",
                     cycles - 1
                 ));
