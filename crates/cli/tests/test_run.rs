@@ -171,6 +171,117 @@ fn temporary_files_lie_where_the_caller_wants_them() {
     assert!(ended == Some(0) && text.contains("/temporary>"), "{text}");
 }
 
+/// The folder for temporary files that `tests/run` chooses without a TMPDIR, where `df` says so many KB are free in `/dev/shm`.
+/// Scripts in it can be started or not.
+fn temporary_folder(free: u64, may_run: bool) -> String {
+    let folder = tempfile::tempdir().unwrap();
+    let at = folder.path();
+    fs::create_dir(at.join("tests")).unwrap();
+    fs::copy(root().join("tests/run"), at.join("tests/run")).unwrap();
+    script(&at.join("tests/python"), "true");
+    script(&at.join("tests/suites"), "echo \"in <${TMPDIR-}>\"");
+    script(&at.join("bin/cargo"), "true");
+    script(&at.join("bin/df"), &format!("echo 'Filesystem Blocks Used Available'; echo 'shm 9 9 {free}'"));
+    if !may_run {
+        script(&at.join("bin/chmod"), "true");
+    }
+    let left = || {
+        let names = fs::read_dir("/dev/shm").into_iter().flatten().flatten().map(|entry| entry.file_name());
+        names.filter(|name| name.to_string_lossy().starts_with("edgewalk.")).collect::<Vec<_>>()
+    };
+    let before = left();
+    let path = format!("{}:{}", at.join("bin").display(), std::env::var("PATH").unwrap());
+    let mut command = Command::new(at.join("tests/run"));
+    let output = command.env("PATH", path).env_remove("TMPDIR").output().unwrap();
+    let text = String::from_utf8([output.stdout, output.stderr].concat()).unwrap();
+    assert!(output.status.success(), "{text}");
+    assert!(left().iter().all(|name| before.contains(name)), "a file is left in /dev/shm");
+    let named =
+        text.split_once("in <").and_then(|(_, rest)| rest.split_once(">\n")).expect("the suites ran").0;
+    named.to_owned()
+}
+
+#[test]
+fn temporary_files_lie_in_memory_where_there_is_room_and_programs_may_run() {
+    // Whether this system has such a folder at all is asked of it in another way.
+    let mine = Path::new("/dev/shm").join(format!("edgewalk-test-{}", std::process::id()));
+    let there = fs::write(&mine, "#!/bin/sh\n").is_ok()
+        && fs::set_permissions(&mine, fs::Permissions::from_mode(0o755)).is_ok()
+        && Command::new(&mine).status().is_ok_and(|status| status.success());
+    let _ = fs::remove_file(&mine);
+    assert_eq!(temporary_folder(4_000_001, true), if there { "/dev/shm" } else { "" });
+    assert_eq!(temporary_folder(4_000_000, true), "");
+    assert_eq!(temporary_folder(4_000_001, false), "");
+}
+
+/// A compiler in this folder that writes its arguments into its output and counts its calls, and `tests/objcache` before it.
+struct Cached<'a>(&'a Path);
+
+impl Cached<'_> {
+    /// Compiles a source with these options; the exit code, what is written, and how often the compiler ran.
+    fn compile(&self, options: &[&str], source: &str) -> (Option<i32>, Option<String>, usize) {
+        let (out, calls) = (self.0.join("out.o"), self.0.join("calls"));
+        let _ = (fs::remove_file(&out), fs::remove_file(&calls));
+        script(
+            &self.0.join("cc"),
+            &format!(
+                "echo call >>'{}'\ncase \"$*\" in *-Dwrong*) exit 3;; esac\nall=$*\n\
+                 while [ $# -gt 0 ]; do [ \"$1\" = -o ] && echo \"$all\" >\"$2\"; shift; done",
+                calls.display()
+            ),
+        );
+        let mut command = Command::new(root().join("tests/objcache"));
+        command.arg(self.0.join("cc")).args(options).args(["-c", "-o"]).arg(&out).arg(source);
+        command.env("EDGEWALK_OBJECTS", self.0.join("objects"));
+        let status = command.status().unwrap();
+        let calls = fs::read_to_string(&calls).unwrap_or_default().lines().count();
+        (status.code(), fs::read_to_string(&out).ok(), calls)
+    }
+}
+
+#[test]
+fn files_of_verilator_are_compiled_once_for_the_same_options() {
+    let folder = tempfile::tempdir().unwrap();
+    let cached = Cached(folder.path());
+    fs::create_dir(folder.path().join("objects")).unwrap();
+    let own = "/share/verilator/include/verilated.cpp";
+    let (code, first, calls) = cached.compile(&["-O1", "-MMD"], own);
+    assert_eq!((code, calls), (Some(0), 1));
+    assert!(first.as_ref().is_some_and(|text| text.contains("-O1 -MMD -c -o")), "{first:?}");
+    assert_eq!(cached.compile(&["-O1", "-MMD"], own), (Some(0), first.clone(), 0), "kept");
+    for (options, source) in
+        [(["-O2", "-MMD"], own), (["-O1", "-MMD"], "/share/verilator/include/verilated_vcd_c.cpp")]
+    {
+        let (code, other, calls) = cached.compile(&options, source);
+        assert_eq!((code, calls), (Some(0), 1), "{options:?} {source}");
+        assert_ne!(other, first);
+    }
+    // A failure is told, and nothing of it is kept.
+    assert_eq!(cached.compile(&["-Dwrong"], own), (Some(3), None, 1));
+    assert_eq!(cached.compile(&["-Dwrong"], own), (Some(3), None, 1));
+
+    // A file of the simulation: the header ahead of it, once for the same options, and the file each time.
+    for (options, calls) in
+        [(["-O1", "-MMD"], 2), (["-O1", "-MMD"], 1), (["-O2", "-MMD"], 2), (["-O1", "-MMD"], 1)]
+    {
+        let (code, made, ran) = cached.compile(&options, "Vtop.cpp");
+        assert_eq!((code, ran), (Some(0), calls), "{options:?}");
+        let made = made.expect("an object");
+        let (before, header) = made.split_once(" -include ").expect("the header is included");
+        assert_eq!(before, options.join(" "));
+        let header = header.split_once(" -c -o ").expect("then the file").0;
+        assert_eq!(fs::read_to_string(header).unwrap(), "#include \"verilated.h\"\n");
+        let ahead = fs::read_to_string(format!("{header}.gch")).expect("the header compiled ahead");
+        assert!(ahead.starts_with(&options.join(" ")) && ahead.contains("-x c++-header"), "{ahead}");
+    }
+    assert_eq!(cached.compile(&["-Dwrong"], "Vtop.cpp"), (Some(3), None, 1));
+    let kept = fs::read_dir(folder.path().join("objects")).unwrap();
+    let names = kept.map(|entry| entry.unwrap().file_name().into_string().unwrap());
+    let unfinished: Vec<_> =
+        names.filter(|name| ![".o", ".h", ".gch"].iter().any(|end| name.ends_with(end))).collect();
+    assert!(unfinished.is_empty(), "{unfinished:?}");
+}
+
 /// What `tests/rustc` hands to the compiler for a crate of this package and name.
 fn compiled(package: &str, name: &str, arguments: &str) -> String {
     let mut command = Command::new(root().join("tests/rustc"));
