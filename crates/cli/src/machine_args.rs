@@ -2,6 +2,7 @@
 
 use anyhow::{Context, Result, anyhow};
 use edgewalk_host::needs::Need;
+use edgewalk_machine::keys::KEYS;
 use edgewalk_machine::presets::PRESETS;
 use edgewalk_machine::{Machine, Plan, Unknown};
 use std::fs::File;
@@ -35,6 +36,19 @@ impl MachineArgs {
         let machine = Some(["--machine", &self.machine]).filter(|_| self.machine != DEFAULT);
         let set = self.set.iter().map(|setting| ["--set", setting]);
         machine.into_iter().chain(set).flatten().collect()
+    }
+
+    /// The words of a command line that ask for this machine: the preset that it differs least from, and the other keys.
+    pub fn words_for(machine: &Machine) -> Vec<String> {
+        let set = |preset: &str| -> Vec<String> {
+            let of = Machine::preset(preset).unwrap_or_default();
+            let others = KEYS.iter().filter(|key| key.show(&of) != key.show(machine));
+            others.map(|key| format!("{}={}", key.name, key.show(machine))).collect()
+        };
+        let presets = PRESETS.iter().map(|preset| (preset.0, set(preset.0)));
+        let (machine, set) = presets.min_by_key(|(_, set)| set.len()).unwrap_or((DEFAULT, Vec::new()));
+        let asked = MachineArgs { machine: machine.to_owned(), set };
+        asked.words().into_iter().map(str::to_owned).collect()
     }
 
     /// The machine `FILE|PRESET[,key=value...]`, with what --set says on top; screen and needs as in

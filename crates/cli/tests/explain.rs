@@ -70,8 +70,8 @@ fn terms_add_up() {
 #[test]
 fn errors_are_those_of_the_sums_in_json_and_in_text() {
     let folder = tempfile::tempdir().expect("a folder");
-    // Whole LSB at whole pixels: the port rounds nothing.
-    let [z, red] = [[1_000_000.0, 9_000_000.0, 4_000_000.0], [20.0, 250.0, 99.0]];
+    // Whole LSB at whole pixels: the port rounds nothing. Depth begins in the upper half of its range, red in the lower.
+    let [z, red] = [[9_000_000.0, 1_000_000.0, 4_000_000.0], [20.0, 250.0, 99.0]];
     let at = [(1.0, 1.0), (62.0, 4.0), (9.0, 46.0)];
     let vertex = |i: usize| {
         let (x, y) = at[i];

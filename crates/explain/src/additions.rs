@@ -1,6 +1,6 @@
 //! The machine's way to a pixel: start, increments down the major edge, increments along the span.
 
-use crate::accumulators::{Plane, half, lsb, prim, signed};
+use crate::accumulators::{Plane, lsb, prim, signed};
 use edgewalk_host::extra::Label;
 use edgewalk_machine::{Plan, PortVertex};
 use edgewalk_model::Events;
@@ -97,6 +97,7 @@ impl Plane<'_> {
         let channels = self.machine.channels();
         let each = |of: &dyn Fn(usize) -> f64| (0..channels.len()).map(of).collect();
         let error = |i: usize| self.error(weights, after[i], i);
+        let value = |i: usize| self.at(weights, i) + error(i);
         let steps = Steps { lines, columns };
         Addition {
             step,
@@ -105,10 +106,12 @@ impl Plane<'_> {
             added: each(&|i| {
                 let word = channels[i].word();
                 let mask = (1u64 << word) - 1;
-                let half = if step == "start" { half(&channels[i]) } else { 0.0 };
-                signed(after[i].wrapping_sub(before[i]) & mask, word) * lsb(channels[i].fraction) - half
+                match step {
+                    "start" => value(i),
+                    _ => signed(after[i].wrapping_sub(before[i]) & mask, word) * lsb(channels[i].fraction),
+                }
             }),
-            value: each(&|i| self.at(weights, i) + error(i)),
+            value: each(&value),
             error: each(&error),
             bound: each(&|i| channels[i].error_budget(steps).steps.to_f64()),
         }

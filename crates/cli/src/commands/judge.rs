@@ -14,7 +14,7 @@ use edgewalk_model::Waits;
 use serde::Serialize;
 use std::path::PathBuf;
 
-/// Judges the picture of another rasterizer beside golden's, by frame: final depth and colour, whatever the order of writes.
+/// Judge the picture of another rasterizer beside golden's, by frame: final depth and colour, whatever the order of writes.
 ///
 /// PICTURE is a folder with those of coverage.npy, id.npy, z.npy, rgb.npy and lit.npy that there are, as `raster` writes them; or such
 /// files by name; or a PNG. Depths and colours are floats in 0 to 1 or unsigned integers in LSB, row 0 on top.

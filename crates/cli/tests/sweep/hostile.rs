@@ -96,6 +96,10 @@ fn the_command_of_a_page_makes_its_sweep() {
     let sweep = [
         "sweep",
         "sphere",
+        "--machine",
+        "small",
+        "--set",
+        "interpolator.adders=1",
         "--vary",
         "formats.z_fraction=6..9",
         "--vary",

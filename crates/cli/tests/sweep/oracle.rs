@@ -200,17 +200,13 @@ impl Machine {
     }
 
     /// Cycles with each memory.
-    pub fn cycles(&self) -> Vec<u64> {
-        let of = |rows: &Vec<Value>| {
-            rows.iter().map(|row| row["report"]["cycles"]["total"].as_u64().unwrap()).sum()
-        };
-        self.rows.iter().map(of).collect()
+    pub fn cycles(&self) -> Vec<f64> {
+        (0..self.rows.len()).map(|memory| self.of_memory(memory, "cycles").unwrap()).collect()
     }
 
     /// The memories whose causes are told.
     pub fn deciding(&self, judge: Judge) -> Vec<usize> {
-        let cycles: Vec<f64> =
-            (0..self.rows.len()).map(|memory| self.of_memory(memory, "cycles").unwrap()).collect();
+        let cycles = self.cycles();
         let most = cycles.iter().copied().fold(f64::MIN, f64::max);
         match judge {
             Judge::Only(memory) => vec![memory],
@@ -219,15 +215,24 @@ impl Machine {
         }
     }
 
-    /// Cycles by cause over all inputs.
-    pub fn causes(&self, memories: &[usize]) -> BTreeMap<String, u64> {
+    /// Cycles by cause: each input's times its weight, or those of the input that takes longest.
+    pub fn causes(&self, memories: &[usize]) -> BTreeMap<String, f64> {
         let mut sums = BTreeMap::new();
-        for row in memories.iter().flat_map(|memory| &self.rows[*memory]) {
-            for (cause, cycles) in row["report"]["cycles"]["by_cause"].as_object().unwrap() {
-                *sums.entry(cause.clone()).or_default() += cycles.as_u64().unwrap();
+        for rows in memories.iter().map(|memory| &self.rows[*memory]) {
+            let totals: Vec<u64> =
+                rows.iter().map(|row| row["report"]["cycles"]["total"].as_u64().unwrap()).collect();
+            let longest = totals.iter().position(|total| total == totals.iter().max().unwrap());
+            for (place, row) in rows.iter().enumerate() {
+                let weight = match self.over {
+                    Over::Sum(weights) => weights[place],
+                    Over::Worst => f64::from(u8::from(longest == Some(place))),
+                };
+                for (cause, cycles) in row["report"]["cycles"]["by_cause"].as_object().unwrap() {
+                    *sums.entry(cause.clone()).or_default() += weight * cycles.as_f64().unwrap();
+                }
             }
         }
-        sums.retain(|_, cycles| *cycles > 0);
+        sums.retain(|_, cycles| *cycles > 0.0);
         sums
     }
 }

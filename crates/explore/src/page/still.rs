@@ -110,16 +110,16 @@ pub fn front(table: &Table) -> String {
         html += &keys(table, machine);
         if memories.len() > 1 {
             for memory in 0..memories.len() {
-                let cycles = machine.cycles(memory).map_or_else(String::new, |cycles| cycles.to_string());
+                let cycles = machine.cycles(judge, memory).map_or_else(String::new, number);
                 html += &format!("<td>{cycles}</td>");
             }
         }
         let deciding = machine.deciding(judge);
-        let causes = machine.causes(&deciding);
-        let all: u64 = causes.iter().map(|(_, cycles)| cycles).sum();
+        let causes = machine.causes(judge, &deciding);
+        let all: f64 = causes.iter().map(|(_, cycles)| cycles).sum();
         let shares: Vec<String> = causes
             .into_iter()
-            .map(|(cause, cycles)| format!("{cause} {:.1} %", 100.0 * cycles as f64 / all as f64))
+            .map(|(cause, cycles)| format!("{cause} {:.1} %", 100.0 * cycles / all))
             .collect();
         let with = match deciding[..] {
             [memory] if memories.len() > 1 => format!("{}: ", escaped(&memories[memory].name)),

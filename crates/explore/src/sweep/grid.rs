@@ -55,7 +55,7 @@ pub struct Sweep {
     /// Rounds of a search that have begun.
     pub rounds: Vec<Round>,
     /// The machine that the keys are varied in.
-    base: Machine,
+    pub base: Machine,
 }
 
 impl Sweep {

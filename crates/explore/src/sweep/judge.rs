@@ -101,6 +101,19 @@ impl Judge {
         }
     }
 
+    /// The rows that make up a memory's cycles, each with its weight: all of a sum, or the first with the most cycles.
+    #[must_use]
+    pub fn counted<'v>(&self, rows: &[&'v Value]) -> Vec<(&'v Value, f64)> {
+        match self.inputs {
+            OverInputs::Sum(_) => rows.iter().map(|row| (*row, self.weight(row))).collect(),
+            // Of equals the first.
+            OverInputs::Worst => {
+                let most = rows.iter().rev().max_by_key(|row| row.pointer("/report/cycles/total")?.as_u64());
+                most.map(|row| (*row, 1.0)).into_iter().collect()
+            }
+        }
+    }
+
     /// The weight of a row's input.
     #[must_use]
     pub fn weight(&self, row: &Value) -> f64 {

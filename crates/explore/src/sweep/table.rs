@@ -43,19 +43,18 @@ impl<'t> Candidate<'t> {
         self.rows.iter().flatten().copied()
     }
 
-    /// Cycles of all inputs with this memory; none if one of them has none.
+    /// Cycles with this memory as the judge counts the inputs: a weighted sum or the worst. None if an input has none.
     #[must_use]
-    pub fn cycles(&self, memory: usize) -> Option<u64> {
-        let rows = self.rows[memory].iter();
-        rows.map(|row| row.pointer("/report/cycles/total")?.as_u64()).sum()
+    pub fn cycles(&self, judge: &Judge, memory: usize) -> Option<f64> {
+        let [cycles, ..] = OBJECTIVES else { return None };
+        judge.of_memory(cycles, &self.rows[memory])
     }
 
     /// The memories that decide the machine's cycles, by their places.
     #[must_use]
     pub fn deciding(&self, judge: &Judge) -> Vec<usize> {
         let all = 0..self.rows.len();
-        let [cycles, ..] = OBJECTIVES else { return Vec::new() };
-        let cycles = |memory: usize| judge.of_memory(cycles, &self.rows[memory]).unwrap_or(0.0);
+        let cycles = |memory: usize| self.cycles(judge, memory).unwrap_or(0.0);
         match judge.memories {
             OverMemories::Only(memory) => vec![memory],
             OverMemories::Sum => all.collect(),
@@ -66,14 +65,15 @@ impl<'t> Candidate<'t> {
         }
     }
 
-    /// Cycles by cause, summed over the inputs and these memories; causes without a cycle are left out.
+    /// Cycles by cause with these memories, of the inputs as the judge counts them; causes without a cycle are left out.
     #[must_use]
-    pub fn causes(&self, memories: &[usize]) -> Vec<(&'static str, u64)> {
-        let rows = || memories.iter().flat_map(|memory| &self.rows[*memory]);
-        let of = |cause: &str| -> u64 {
-            rows().filter_map(|row| row["report"]["cycles"]["by_cause"][cause].as_u64()).sum()
+    pub fn causes(&self, judge: &Judge, memories: &[usize]) -> Vec<(&'static str, f64)> {
+        let rows: Vec<_> = memories.iter().flat_map(|memory| judge.counted(&self.rows[*memory])).collect();
+        let of = |cause: &str| -> f64 {
+            let cycles = |row: &Value| row["report"]["cycles"]["by_cause"][cause].as_f64().unwrap_or(0.0);
+            rows.iter().map(|(row, weight)| weight * cycles(row)).sum()
         };
-        causes().map(|cause| (cause, of(cause))).filter(|(_, cycles)| *cycles > 0).collect()
+        causes().map(|cause| (cause, of(cause))).filter(|(_, cycles)| *cycles > 0.0).collect()
     }
 }
 

@@ -2,6 +2,7 @@
 
 use super::pictures::pictures;
 use crate::document::document;
+use crate::machine_args::MachineArgs;
 use crate::progress::spinner;
 use crate::shell::quoted;
 use crate::talk::Talk;
@@ -62,11 +63,12 @@ impl<'o> Outcome<'o> {
                     None => self.table.machines.len().to_string(),
                 };
                 let text = format!(
-                    "# machine {}, best of {of} for {}: {} ({})\n{}",
+                    "# machine {}, best of {of} for {}: {} ({}{})\n{}",
                     machine.hash(),
                     objective.name,
                     self.table.value(objective, candidate),
                     objective.doc,
+                    together(self.table.sweep),
                     machine.to_toml()
                 );
                 staging.write(&best_file(objective.name), text)?;
@@ -78,11 +80,12 @@ impl<'o> Outcome<'o> {
         Ok(())
     }
 
-    /// The command that makes this sweep, but for the machine that its keys are varied in.
+    /// The command that makes this sweep.
     fn command(&self) -> String {
         let definition = &self.table.sweep.definition;
         let mut words = vec!["edgewalk".to_owned(), "sweep".to_owned()];
         words.extend(definition.inputs.iter().cloned());
+        words.extend(MachineArgs::words_for(&self.table.sweep.base));
         let mut flag = |name: &str, values: &[String]| {
             values.iter().for_each(|value| words.extend([format!("--{name}"), value.clone()]));
         };
@@ -137,7 +140,8 @@ impl<'o> Outcome<'o> {
             of["values"][objective.name] = json!(self.table.value(objective, candidate));
         }
         for (place, memory) in self.table.sweep.memories.iter().enumerate() {
-            of["cycles"][memory.waits.to_string()] = json!(candidate.cycles(place));
+            let cycles = candidate.cycles(&self.table.sweep.judge, place);
+            of["cycles"][memory.waits.to_string()] = json!(cycles);
         }
         of
     }
@@ -265,7 +269,8 @@ impl<'o> Outcome<'o> {
             return String::new();
         }
         let of = |(place, memory): (usize, &Memory)| {
-            let cycles = candidate.cycles(place).map_or_else(|| "-".to_owned(), |cycles| cycles.to_string());
+            let cycles =
+                candidate.cycles(&self.table.sweep.judge, place).map_or_else(|| "-".to_owned(), number);
             format!("{} {cycles}", memory.name)
         };
         format!("  cycles: {}", memories.iter().enumerate().map(of).collect::<Vec<_>>().join(", "))
@@ -280,6 +285,11 @@ impl<'o> Outcome<'o> {
         }
         Verdict::drew(count(Status::Ok) + count(Status::Pruned))
     }
+}
+
+/// How the inputs and memories of a sweep count together, where there are several.
+fn together(sweep: &Sweep) -> String {
+    rule(sweep).iter().map(|line| format!("; {line}")).collect()
 }
 
 /// Machines of the front that are told; the table has all.
