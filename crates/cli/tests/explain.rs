@@ -258,3 +258,47 @@ fn polygons_show_their_edge_table_and_active_edges() {
 fn numbers_of(edge: &Value) -> [f64; 3] {
     ["x", "column", "lines_left"].map(|key| edge[key].as_f64().expect("a number"))
 }
+
+/// The triangle that the machine stores is in the list, whatever the fill rule; where the additions are missing the page says why.
+#[test]
+fn the_triangle_that_is_seen_is_in_the_list_by_every_fill_rule() {
+    let mut checked = 0;
+    for (asked, key) in [
+        (&["--set", "edge.kind=exact"][..], None),
+        (&["--machine", "textbook"], Some("edge.fill = exact")),
+        (&["--set", "edge.kind=slope"], Some("edge.kind = exact")),
+        (&["--machine", "polygon"], Some("polygon.edges = 0")),
+    ] {
+        for (x, y) in [("32", "24"), ("20", "30"), ("41", "11")] {
+            let run = |more: &[&str]| {
+                let output = Command::new(env!("CARGO_BIN_EXE_edgewalk"))
+                    .args(["explain", "torus", x, y, "--set", "screen.width=64", "--set", "screen.height=48"])
+                    .args(asked)
+                    .args(more)
+                    .output()
+                    .expect("the program runs");
+                assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+                String::from_utf8(output.stdout).expect("text")
+            };
+            let told: Value = serde_json::from_str(&run(&["--json"])).expect("one JSON value");
+            let page = run(&[]);
+            let id = told["stored"]["id"].as_i64().expect("an id");
+            let listed = told["fragments"].as_array().expect("fragments");
+            let seen = listed.iter().filter(|over| over["id"] == id && over["z"] == told["z"]).count();
+            assert_eq!(seen, usize::from(id >= 0), "{asked:?} {x} {y}: {told}");
+            assert_eq!(page.matches("  seen\n").count(), seen, "{page}");
+            assert_eq!(told["light"].is_object(), id >= 0, "{told}");
+            let reason = told["no_additions"].as_str();
+            assert_eq!(reason.is_some(), id >= 0 && key.is_some(), "{told}");
+            assert_eq!(told["machine"].is_object(), id >= 0 && key.is_none(), "{told}");
+            if let (Some(reason), Some(key)) = (reason, key) {
+                assert!(
+                    reason.contains(key) && page.ends_with(&format!("no additions: {reason}\n")),
+                    "{page}"
+                );
+            }
+            checked += seen;
+        }
+    }
+    assert!(checked >= 8, "checked {checked} pixels");
+}

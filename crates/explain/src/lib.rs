@@ -36,13 +36,13 @@ use additions::{Walk, walk};
 use anyhow::Result;
 use dithered::{Dithered, dithered};
 use edges::{OnLine, on_line};
-use edgewalk_golden::polygon::{EdgeTable, Grid, fragments as polygon_fragments};
-use edgewalk_golden::{Drawing, Order, ShadowMaps, fragments, line_fragments};
+use edgewalk_golden::polygon::{EdgeTable, fragments as polygon_fragments};
+use edgewalk_golden::{Drawing, Order, ShadowMaps, line_fragments};
 use edgewalk_host::draw::{Pixel, bands, draw_frame};
 use edgewalk_host::extra;
 use edgewalk_host::faces::parts;
 use edgewalk_host::port::{PortFrame, to_port};
-use edgewalk_host::raster::golden_drawing;
+use edgewalk_host::raster::{golden_drawing, golden_fill};
 use edgewalk_host::shade::apart;
 use edgewalk_host::vertices::port_triangle;
 use edgewalk_machine::{EdgeKind, Fill, Plan};
@@ -106,6 +106,9 @@ pub struct Explanation {
     dithered: Option<Dithered>,
     /// Where the machine has exact fill and exact edges, and draws the triangle.
     machine: Option<Walk>,
+    /// Why there is none of the triangle that is seen.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    no_additions: Option<&'static str>,
 }
 
 /// The words of the machine's memories at the pixel, behind the last triangle.
@@ -170,17 +173,13 @@ pub fn explain(input: &Input, (x, y): (u32, u32)) -> Result<Explanation> {
         }
         _ => (Vec::new(), None),
     };
-    let walked = match seen {
-        // What is walked is EDGE's way to the pixel.
-        Some(triangle)
-            if machine.fill == Fill::Exact
-                && machine.edge_kind == EdgeKind::Exact
-                && !machine.polygon.is_there() =>
-        {
+    let (walked, no_additions) = match (seen, unseen_way(machine)) {
+        (Some(triangle), None) => {
             let state = state_of(frame, id as usize);
-            walk(machine, &port_triangle(id as usize, triangle, frame, &state, machine)?, x, y)
+            (walk(machine, &port_triangle(id as usize, triangle, frame, &state, machine)?, x, y), None)
         }
-        _ => None,
+        (Some(_), reason) => (None, reason),
+        (None, _) => (None, None),
     };
     let (stored, not_stored) = match stored(frame, machine, (x, y)) {
         Ok(stored) => (Some(stored), None),
@@ -223,6 +222,7 @@ pub fn explain(input: &Input, (x, y): (u32, u32)) -> Result<Explanation> {
         poly: in_poly(frame, machine, (x, y)),
         dithered: walked.as_ref().and_then(|walk| dithered(machine, frame, &walk.output, (x, y))),
         machine: walked,
+        no_additions,
     })
 }
 
@@ -249,6 +249,23 @@ fn covered(drawing: &Drawing, machine: &Plan) -> u64 {
 /// Pixels of a band, about: each takes 49 bytes.
 const BAND: u32 = 1 << 19;
 
+/// Why the additions on the way to a triangle's pixel are not shown; none where they are: it is the way of exact edges.
+fn unseen_way(machine: &Plan) -> Option<&'static str> {
+    if machine.polygon.is_there() {
+        Some("POLY walks the edges of this machine; the additions are shown with polygon.edges = 0")
+    } else if machine.fill != Fill::Exact {
+        Some(
+            "the spans of edge.fill = textbook begin and end by its own rule; they are shown with edge.fill = exact",
+        )
+    } else if machine.edge_kind != EdgeKind::Exact {
+        Some(
+            "the edges of edge.kind = slope round on their way; the additions are shown with edge.kind = exact",
+        )
+    } else {
+        None
+    }
+}
+
 /// What the machine stores at a pixel, all triangles drawn.
 fn stored(frame: &Frame, machine: &Plan, pixel: (u32, u32)) -> Result<Stored> {
     let port = to_port(frame, machine)?;
@@ -263,33 +280,30 @@ fn state_of(frame: &Frame, id: usize) -> State {
     passes.iter().find(|pass| pass.primitives.contains(&id)).map_or(frame.state(), |pass| pass.state)
 }
 
-/// The triangles and lines over a pixel, by their exact rules.
+/// The primitives over a pixel, by the machine's fill rule, in drawing order.
 fn over(frame: &Frame, machine: &Plan, pixel: (u32, u32)) -> Vec<Over> {
-    let mut list = Vec::new();
-    let (screen, bits) = ((machine.width, machine.height), machine.subpixel_bits);
+    let mut list: Vec<Over> = Vec::new();
+    let (screen, fill) = ((machine.width, machine.height), golden_fill(machine));
     for (id, primitive) in frame.primitives().into_iter().enumerate() {
+        // The textbook draws a pixel of the knee line twice.
+        let mut add = |at, z, rgb, extra: &dyn Fn(usize) -> f64| {
+            if at == pixel && list.last().is_none_or(|over| over.id != id) {
+                list.push(Over { id, z, rgb, extra: own(machine, extra) });
+            }
+        };
         match primitive {
-            Primitive::Triangle(triangle) => fragments(triangle, frame.mode, bits, screen, |fragment| {
-                if (fragment.x, fragment.y) == pixel {
-                    let extra = own(machine, |channel| fragment.extra(channel));
-                    list.push(Over { id, z: fragment.z(), rgb: fragment.rgb(), extra });
-                }
-            }),
-            Primitive::Line(line) => line_fragments(line, frame.mode, bits, screen, |fragment| {
-                if (fragment.x, fragment.y) == pixel {
-                    let extra = own(machine, |channel| fragment.extra(channel));
-                    list.push(Over { id, z: fragment.z(), rgb: fragment.rgb(), extra });
-                }
+            Primitive::Triangle(triangle) => {
+                fill.fragments(triangle, frame.mode, screen, |f| {
+                    add((f.x, f.y), f.z(), f.rgb(), &|i| f.extra(i))
+                });
+            }
+            Primitive::Line(line) => line_fragments(line, frame.mode, machine.subpixel_bits, screen, |f| {
+                add((f.x, f.y), f.z(), f.rgb(), &|i| f.extra(i));
             }),
             // With POLY; elsewhere the frame that is explained has triangles in its place.
             Primitive::Polygon(polygon) => {
-                let table = EdgeTable::new(polygon, frame.mode, Grid::subpixels(bits));
-                polygon_fragments(&table, screen, |fragment| {
-                    if (fragment.x, fragment.y) == pixel {
-                        let extra = own(machine, |channel| fragment.extra(channel));
-                        list.push(Over { id, z: fragment.z(), rgb: fragment.rgb(), extra });
-                    }
-                });
+                let table = EdgeTable::new(polygon, frame.mode, fill.grid());
+                polygon_fragments(&table, screen, |f| add((f.x, f.y), f.z(), f.rgb(), &|i| f.extra(i)));
             }
         }
     }
@@ -338,7 +352,7 @@ fn light(scene: &Scene, surface: &Surface, id: usize, machine: &Plan, pixel: (u3
     let mut point = None;
     let screen = (machine.width, machine.height);
     let mode = edgewalk_scene::ShadeMode::Gouraud;
-    fragments(&triangle.on_screen(), mode, machine.subpixel_bits, screen, |fragment| {
+    golden_fill(machine).fragments(&triangle.on_screen(), mode, screen, |fragment| {
         if (fragment.x, fragment.y) == pixel {
             point = Some(lit_point(scene, triangle, fragment, &maps));
         }

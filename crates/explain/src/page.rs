@@ -59,6 +59,9 @@ pub(super) fn text(of: &Explanation, color_bits: u32) -> String {
     if let Some(walk) = &of.machine {
         machine(&mut page, walk);
     }
+    if let Some(reason) = of.no_additions {
+        _ = writeln!(page, "\nno additions: {reason}");
+    }
     page
 }
 

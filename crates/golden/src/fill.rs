@@ -21,8 +21,9 @@ pub enum Fill {
 }
 
 impl Fill {
-    /// Calls `draw` for every fragment of `triangle` on a screen of width by height pixels.
-    pub(crate) fn fragments(
+    /// Calls `draw` for every fragment of `triangle` on a screen of width by height pixels. A pixel of the textbook's knee
+    /// line comes twice.
+    pub fn fragments(
         self,
         triangle: &Triangle,
         mode: ShadeMode,
@@ -60,7 +61,8 @@ impl Fill {
     }
 
     /// Where a polygon's vertices and pixels lie.
-    pub(crate) fn grid(self) -> Grid {
+    #[must_use]
+    pub fn grid(self) -> Grid {
         match self {
             Self::Exact { subpixel_bits } => Grid::subpixels(subpixel_bits),
             Self::Textbook => Grid::whole(),
