@@ -52,6 +52,20 @@ const AFTER: &str = r##"
   seen.least = marks();
 "##;
 
+/// Contrast of a link to the page behind it, and the width of the column of causes in the table of the front, letters.
+const READ: &str = r##"
+  const light = (colour) => {
+    const [r, g, b] = colour.match(/[\d.]+/g).map((v) => v / 255).map((v) => v <= 0.04045 ? v / 12.92 : ((v + 0.055) / 1.055) ** 2.4);
+    return 0.2126 * r + 0.7152 * g + 0.0722 * b;
+  };
+  const [link, paper] = [getComputedStyle(document.querySelector("main a[href]")).color, getComputedStyle(document.body).backgroundColor];
+  const [a, b] = [light(link), light(paper)];
+  seen.contrast = (Math.max(a, b) + 0.05) / (Math.min(a, b) + 0.05);
+  seen.dark = b < 0.2;
+  const cell = document.querySelector("#first-front tbody td:last-child");
+  seen.letters = cell.getBoundingClientRect().width / parseFloat(getComputedStyle(cell).fontSize);
+"##;
+
 /// The page in headless Chromium with its network cut; what it looks like in the end.
 pub(super) fn opened(page: &Path, home: &Path, arguments: &[&str]) -> String {
     let output = Command::new("chromium")
@@ -74,6 +88,11 @@ pub(super) fn opened(page: &Path, home: &Path, arguments: &[&str]) -> String {
 
 /// What this script, run behind the page's own, leaves in the element `result`, as JSON. The page may make no fault and ask for nothing.
 pub(super) fn seen(folder: &Path, page: &str, after: &str) -> Value {
+    seen_with(folder, page, after, &[])
+}
+
+/// The same, where the browser is started with these arguments.
+fn seen_with(folder: &Path, page: &str, after: &str, arguments: &[&str]) -> Value {
     let html = std::fs::read_to_string(folder.join(page)).unwrap();
     let end = "seen.requests = performance.getEntriesByType('resource').map((e) => e.name).filter((n) => !n.startsWith('data:')); \
                seen.faults = faults; const result = document.createElement('pre'); result.id = 'result'; \
@@ -81,7 +100,7 @@ pub(super) fn seen(folder: &Path, page: &str, after: &str) -> Value {
     let after = format!("<script>(async () => {{ const seen = {{}}; {after}; {end} }})();</script></body>");
     let html = html.replacen("<head>", &format!("<head>{BEFORE}"), 1).replacen("</body>", &after, 1);
     std::fs::write(folder.join("opened.html"), html).unwrap();
-    let dom = opened(&folder.join("opened.html"), folder, &["--dump-dom"]);
+    let dom = opened(&folder.join("opened.html"), folder, &[&["--dump-dom"], arguments].concat());
     let result = dom.split("<pre id=\"result\">").nth(1).unwrap_or_else(|| panic!("the script did not end"));
     let seen: Value = serde_json::from_str(&decoded(result.split('<').next().unwrap())).unwrap();
     assert_eq!(
@@ -183,5 +202,23 @@ fn a_point_of_the_front_is_clicked_and_its_machine_is_the_one_of_its_row() {
         [("all", rows.len()), ("open", rows.len()), ("most", quick), ("least", rows.len() - quick)]
     {
         assert_eq!(seen[shown], wanted, "{shown}");
+    }
+}
+
+#[test]
+fn links_and_causes_can_be_read_by_day_and_by_night() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = folder.path();
+    let keys = ["formats.z_fraction=6,9", "formats.color_fraction=6,8", "interpolator.adders=1,2"];
+    let vary = keys.iter().flat_map(|key| ["--vary", key]);
+    let sweep: Vec<&str> = ["sweep", "sphere"].into_iter().chain(vary).collect();
+    let small = ["--set", "screen.width=64", "--set", "screen.height=48", "--out", "s", "--quiet"];
+    assert_eq!(run(at, &[&sweep[..], &small].concat()), (Some(0), String::new()));
+    for (dark, arguments) in
+        [(false, &["--window-size=1000,900"][..]), (true, &["--window-size=1000,900", "--force-dark-mode"])]
+    {
+        let seen = seen_with(at, "s/report.html", READ, arguments);
+        assert_eq!(seen["dark"], dark, "{seen}");
+        assert!(seen["contrast"].as_f64() >= Some(4.5) && seen["letters"].as_f64() >= Some(20.0), "{seen}");
     }
 }
