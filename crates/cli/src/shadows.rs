@@ -8,7 +8,7 @@ use edgewalk_scene::Scene;
 pub enum Shadows {
     /// No light casts shadows
     Off,
-    /// Depth maps of 1024 x 1024 texels: lit or not; glass hides nothing
+    /// Depth maps of 1024 x 1024 texels: glass weakens the light by its k_t
     Map,
     /// Rays: glass weakens the light
     Ray,

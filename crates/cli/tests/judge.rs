@@ -283,6 +283,12 @@ fn picture_of_any_program_is_judged_by_colour() {
         let (found, report) = judged(folder.path(), &["mine.png"]);
         assert_eq!(found, Some(code), "{report}");
         assert_eq!(report["compared"], serde_json::json!(["rgb"]));
+        // What was not compared has no error.
+        let [z, color] = [0, 1].map(|place| &report["largest_error_lsb"][place]);
+        assert!(z.is_null() && color.is_f64(), "{report}");
+        let text = edgewalk(folder.path(), &["judge", "in.tri", "mine.png"]).output().unwrap().stdout;
+        let text = String::from_utf8(text).unwrap();
+        assert!(!text.contains("depth: ") && text.contains("colour: tolerance"), "{text}");
     }
 }
 

@@ -238,3 +238,35 @@ fn what_one_machine_cannot_do_is_said() {
     println!("checked {0} / {0} machines", cases.len());
     assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0);
 }
+
+/// The cycles of the maps in docs/shadows.md, by the command above them.
+#[test]
+fn the_page_has_the_cycles_of_the_maps() {
+    let page = include_str!("../../../docs/shadows.md");
+    let (before, table) = page.split_once("| scene | second machine | one machine").expect("the table");
+    let command =
+        before.rsplit("```").nth(1).expect("its command").trim_start_matches("sh").replace('\\', " ");
+    let words: Vec<&str> = command.split_whitespace().skip(1).collect();
+    let mut checked = 0;
+    for row in table.lines().skip(2).take_while(|line| line.starts_with('|')) {
+        let cells: Vec<&str> = row.split('|').map(str::trim).collect();
+        for (told, own_pass) in [(cells[2], "shadow.own_pass=no"), (cells[3], "shadow.own_pass=yes")] {
+            let words = words.iter().map(|word| match *word {
+                "docs/scenes/glass-and-shadows.toml" => cells[1].trim_matches('`'),
+                "shadow.own_pass=yes" => own_pass,
+                word => word,
+            });
+            let mut command = std::process::Command::new(env!("CARGO_BIN_EXE_edgewalk"));
+            let root = concat!(env!("CARGO_MANIFEST_DIR"), "/../..");
+            let output =
+                command.args(words).arg("--json").current_dir(root).output().expect("the program runs");
+            let report: serde_json::Value = serde_json::from_slice(&output.stdout).expect("JSON");
+            let own: Vec<u64> = serde_json::from_value(report["cycles"]["maps"].clone()).expect("maps");
+            let told = told.replace(',', "").replace("and", "");
+            let thousands = told.split_whitespace().map(|cycles| cycles.parse::<u64>().expect("cycles"));
+            assert_eq!(thousands.collect::<Vec<_>>(), own, "{row}");
+            checked += own.len();
+        }
+    }
+    assert_eq!(checked, 10);
+}

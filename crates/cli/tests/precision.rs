@@ -115,3 +115,59 @@ fn the_witness_wraps_when_it_is_drawn_and_not_with_the_bits_needed() {
     }
     assert_eq!(seen, [(Some(1), true), (Some(0), false)]);
 }
+
+/// Each value of a key with what `config check`, the explanation of that machine and `estimate` say of it.
+#[test]
+fn a_key_is_explained_by_the_machines_of_its_values() {
+    let run = |words: &[&str]| {
+        let output =
+            Command::new(env!("CARGO_BIN_EXE_edgewalk")).args(words).output().expect("the program runs");
+        // An error stands on the other stream.
+        String::from_utf8([output.stdout, output.stderr].concat()).expect("text")
+    };
+    let json = |words: &[&str]| -> Value { serde_json::from_str(&run(words)).expect("one JSON value") };
+    let mut checked = 0;
+    for (key, values, own) in [
+        ("memory.hazard", &["drain", "interlock", "forward"][..], "drain"),
+        ("formats.z_fraction", &["0", "5", "6", "7", "24"], "6"),
+        ("interpolator.adders", &["1", "2", "3", "4", "8"], "3"),
+        ("setup.lanes", &["1", "2", "4"], "2"),
+    ] {
+        let set = format!("{key}={own}");
+        let asked = ["config", "explain", key, "--set", &set];
+        let told = json(&[&asked[..], &["--json"]].concat());
+        let page = run(&asked);
+        let told = told["values"].as_array().expect("values");
+        assert_eq!(told.iter().map(|of| of["value"].as_str().expect("a value")).collect::<Vec<_>>(), values);
+        for (of, value) in told.iter().zip(values) {
+            let set = format!("{key}={value}");
+            let line = page
+                .lines()
+                .find(|line| line.get(2..).is_some_and(|line| line.starts_with(value)))
+                .expect(value);
+            assert_eq!(of["asked_for"] == true, *value == own, "{of}");
+            assert_eq!(line.starts_with('*'), *value == own, "{line}");
+            let check = json(&["config", "check", "--json", "--set", &set]);
+            if check["ok"] != true {
+                let why = of["refused"].as_str().expect("a reason");
+                assert!(check["error"].as_str().is_some_and(|error| error.ends_with(why)), "{check}: {why}");
+                assert!(line.ends_with(why), "{line}");
+                continue;
+            }
+            let whole = json(&["config", "explain", "--json", "--set", &set]);
+            assert_eq!(of["bounds"][0], whole["precision"]["z"]["bound"], "{set}");
+            assert_eq!(of["bounds"][1], whole["precision"]["color"]["bound"], "{set}");
+            let text = run(&["config", "explain", "--set", &set]);
+            assert!(text.contains(&format!("at most {} clocks a triangle", of["setup_clocks"])), "{of}");
+            assert!(text.contains(&format!("1/{} pixel a clock", of["clocks_per_pixel"])), "{of}");
+            let estimate = json(&["estimate", &format!("default,{set}"), "--json"]);
+            let estimate = &estimate["machines"][0];
+            assert_eq!(of["estimate"]["est_ff"], estimate["est_ff"], "{estimate}");
+            assert_eq!(of["estimate"]["est_lut4"]["value"], estimate["est_lut4"]["value"], "{estimate}");
+            let figures: Vec<&str> = line.split_whitespace().collect();
+            assert!(figures.contains(&estimate["est_ff"].to_string().as_str()), "{line}");
+            checked += 1;
+        }
+    }
+    assert_eq!(checked, 14);
+}

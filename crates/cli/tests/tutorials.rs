@@ -41,9 +41,9 @@ fn missing<'a>(printed: &str, told: &'a str) -> Option<&'a str> {
     told.lines().filter(|line| *line != "...").find(|line| !printed.any(|printed| matches(printed, line)))
 }
 
-/// Goes through a tutorial: how many blocks were run, and how many lines compared.
+/// Goes through a page of docs: how many blocks were run, and how many lines compared.
 fn walked(name: &str) -> (usize, usize) {
-    let page = std::fs::read_to_string(root().join("docs/tutorial").join(name)).unwrap();
+    let page = std::fs::read_to_string(root().join("docs").join(name)).unwrap();
     let folder = tempfile::tempdir().unwrap();
     let program = Path::new(env!("CARGO_BIN_EXE_edgewalk"));
     let path = std::env::join_paths(
@@ -84,32 +84,37 @@ fn walked(name: &str) -> (usize, usize) {
 
 #[test]
 fn an_architect_finds_a_machine() {
-    let (run, compared) = walked("architect.md");
+    let (run, compared) = walked("tutorial/architect.md");
     assert!(run >= 6 && compared >= 15, "{run} {compared}");
 }
 
 #[test]
 fn a_foreign_design_fails_where_it_is_wrong() {
-    let (run, compared) = walked("your_rtl.md");
+    let (run, compared) = walked("tutorial/your_rtl.md");
     assert!(run >= 7 && compared >= 18, "{run} {compared}");
 }
 
 #[test]
 fn a_lecture_shows_what_it_says() {
-    let (run, compared) = walked("teach.md");
+    let (run, compared) = walked("tutorial/teach.md");
     assert!(run >= 9 && compared >= 15, "{run} {compared}");
 }
 
 #[test]
 fn a_core_draws_on_a_chip() {
-    let (run, compared) = walked("chip.md");
+    let (run, compared) = walked("tutorial/chip.md");
     assert!(run >= 5 && compared >= 8, "{run} {compared}");
 }
 
 #[test]
 fn a_contributor_finds_the_way() {
-    let (run, compared) = walked("contributor.md");
+    let (run, compared) = walked("tutorial/contributor.md");
     assert!(run >= 3 && compared >= 2, "{run} {compared}");
+}
+
+#[test]
+fn a_sweep_finds_machines_that_keep_what_is_required() {
+    assert_eq!(walked("exploration.md"), (1, 7));
 }
 
 /// The blocks that build are not run here; the crates, tests and files that they name exist.

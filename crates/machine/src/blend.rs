@@ -123,7 +123,7 @@ pub const KEYS: &[Key] = &[
     word!(
         "memory.color_hazard",
         Hazard { "drain" => Drain, "interlock" => Interlock, "forward" => Forward },
-        "BLEND: a pixel still in flight: drain, interlock or forward",
+        "BLEND: while a pixel is in flight, its next fragment waits for all (drain) or for that one (interlock), or takes its colour (forward)",
         blend.hazard,
         if there
     ),

@@ -242,7 +242,7 @@ pub(crate) const DEPTH: &[Key] = &[
     word!(
         "memory.hazard",
         Hazard { "drain" => Drain, "interlock" => Interlock, "forward" => Forward },
-        "a pixel still in flight: drain, interlock or forward",
+        "while a pixel is in flight, its next fragment waits for all (drain) or for that one (interlock), or takes its depth (forward)",
         hazard
     ),
     number!("memory.latency", Range(1, 8), "clocks from a depth read to its data, at the least", latency),

@@ -1,6 +1,7 @@
 //! `edgewalk config`: print, check and explain a machine.
 
 mod precision;
+mod values;
 
 use crate::Talk;
 use crate::document::document;
@@ -34,9 +35,9 @@ enum What {
     Print,
     /// Check whether the machine can be built, and if not, tell why
     Check,
-    /// Explain a key: meaning, permitted values, and consequences for the machine
+    /// Explain a key: meaning, permitted values, and what each value comes to in clocks, bounds and estimated cells
     Explain {
-        /// A key, e.g. memory.hazard; all of them if left out
+        /// A key, e.g. memory.hazard; without one all keys, what follows from them, and the presets
         key: Option<String>,
     },
 }
@@ -84,7 +85,8 @@ fn explain(machine: &Plan, key: Option<&str>, talk: Talk) -> Result<()> {
         let all = key.is_none().then(|| Precision::of(machine));
         let own: Vec<_> = extra::channels(machine).iter().map(|c| OwnChannel::of(c, machine)).collect();
         let own = (key.is_none() && !own.is_empty()).then_some(own);
-        document("keys", json!({ "keys": list, "precision": all, "channels": own }))
+        let values = key.and(chosen.first()).map(|key| values::consequences(machine, key));
+        document("keys", json!({ "keys": list, "values": values, "precision": all, "channels": own }))
     };
     let text = || {
         let lines = chosen.iter().map(|k| {
@@ -92,7 +94,10 @@ fn explain(machine: &Plan, key: Option<&str>, talk: Talk) -> Result<()> {
             format!("{} = {value}\n    {}\n    permitted: {permitted}\n", k.name, k.doc)
         });
         let text: String = lines.collect();
-        if key.is_none() { text + &consequences(machine) } else { text }
+        match (key, &chosen[..]) {
+            (Some(_), [key]) => text + &values::text(&values::consequences(machine, key)),
+            _ => text + &consequences(machine),
+        }
     };
     talk.say(json, text)
 }

@@ -40,7 +40,7 @@ pub struct Args {
     /// Shading method of a scene: constant, constant-averaged, gouraud, phong, fast-phong
     #[arg(long, value_enum, default_value_t = crate::input::Shading::Gouraud, hide_possible_values = true)]
     shading: crate::input::Shading,
-    /// Sets the keys of the machine that the input asks for; what --set says stands
+    /// Set the keys of the machine that the input asks for; what --set says stands
     #[arg(long)]
     adapt: bool,
     /// The picture that is right

@@ -46,13 +46,15 @@ The triangle file (docs/triangle_file.md), one item a line, # comments:
   colour_write 0|1                                        0: depth only; needs blend.kind
   clear_depth                                             depth to blend and this also between triangles
   clear r g b
+  light N                                                 the number of a shadow line, from 1; 0: none
   extra N                                                 values of your own at a vertex, 0 to 4: channels.extra = N
-  shadow SIZE BIAS AMBIENT m00 m01 .. m33                 a light's depth map, matrix by rows; shadow.light = parallel or golden
+  shadow SIZE BIAS AMBIENT m00 m01 .. m33                 a light's depth map, matrix by rows; shadow.light = parallel, perspective or golden
   L x y z  x y z  x y z                                   a triangle of that map, in texels
   T x y z r g b kt  x y z r g b kt  x y z r g b kt        a triangle, pixels
   X e0 .. e0 .. e0 ..                                     N values of vertex 1, of 2, of 3: unorm [0,1], else LSB
   N nx ny nz  nx ny nz  nx ny nz                          normals of a triangle in mode phong or fast-phong
   UV u v  u v  u v                                        its texture coordinates, v up, where its material has a texture
+  S x y z r g b kt  x y z r g b kt                        a line of one pixel's width; polygon.lines = yes
   P n  x y z r g b kt ..                                  a polygon of n vertices; without polygon.edges drawn as triangles
   H n  x y z r g b kt ..                                  one more contour of the polygon on the line before")]
 pub struct Args {

@@ -18,6 +18,7 @@ use crate::{Talk, progress};
 use anyhow::{Context, Result, anyhow};
 use edgewalk_explore::sweep::check::check;
 use edgewalk_explore::sweep::evaluate::{Around, missing};
+use edgewalk_explore::sweep::objective::OBJECTIVES;
 use edgewalk_explore::sweep::row::Status;
 use edgewalk_explore::sweep::shading::SHADINGS;
 use edgewalk_explore::sweep::{Definition, Hunt, Judge, Point, Sample, Store, Sweep, run as evaluate, store};
@@ -38,22 +39,7 @@ use std::path::{Path, PathBuf};
 #[command(
     args_conflicts_with_subcommands = true,
     subcommand_negates_reqs = true,
-    after_help = "Examples:
-  edgewalk sweep teapot.obj --vary interpolator.adders=1,2,4 --vary formats.z_fraction=6..14 --out out/sweep
-  edgewalk sweep sphere torus --vary memory.latency=1..8 --stalls none --stalls dram:miss=8 --out out/stalls
-  edgewalk sweep sphere torus --vary memory.latency=1..8 --weight sphere=3 --out out/weights
-  edgewalk sweep teapot.obj --vary shade.kind=none,fast-phong,phong --out out/shading
-  edgewalk sweep teapot.obj --vary setup.lanes=1,2,4 --synth ice40-hx8k --out out/cells
-  edgewalk sweep teapot.obj --vary fifo.span=1..64 --vary fifo.inflight=1..16 --sample 100 --seed 7 --out out/some
-  edgewalk sweep sphere --vary formats.z_fraction=6..14 --vary setup.lanes=1,2,4 --fits ice40-hx8k --require 'z_error<=1' --out out/fit
-  edgewalk sweep teapot.obj sphere --vary fifo.span=1..64 --vary fifo.inflight=1..16 --vary formats.z_fraction=0..24 \
---vary formats.color_fraction=4..16 --vary interpolator.adders=1,2,4 --search 2000 --seed 7 --out out/search
-  edgewalk sweep plan teapot.obj --vary formats.z_fraction=4..24 --chunks 8 --out out/grid
-  edgewalk sweep why 3f2a --out out/sweep
-
-Objectives: cycles z_error color_error z_bound color_bound shading_error shading_mean word_bits est_lut4 est_ff est_carry est_ram
-est_cells est_mhz, and with --synth lut4 ff carry ram mhz frames_per_s
-mpixels_per_s mtriangles_per_s mpixels_per_s_per_lut mtriangles_per_s_per_lut"
+    after_help = after_help()
 )]
 pub struct Args {
     #[command(subcommand)]
@@ -63,6 +49,28 @@ pub struct Args {
     /// Run the points with this status once more (repeatable)
     #[arg(long, value_enum, value_name = "STATUS")]
     retry: Vec<Retry>,
+}
+
+const EXAMPLES: &str = "Examples:
+  edgewalk sweep teapot.obj --vary interpolator.adders=1,2,4 --vary formats.z_fraction=6..14 --out out/sweep
+  edgewalk sweep sphere torus --vary memory.latency=1..8 --stalls none --stalls dram:miss=8 --out out/stalls
+  edgewalk sweep sphere torus --vary memory.latency=1..8 --weight sphere=3 --out out/weights
+  edgewalk sweep teapot.obj --vary shade.kind=none,fast-phong,phong --out out/shading
+  edgewalk sweep teapot.obj --vary setup.lanes=1,2,4 --synth ice40-hx8k --out out/cells
+  edgewalk sweep teapot.obj --vary fifo.span=1..64 --vary fifo.inflight=1..16 --sample 100 --seed 7 --out out/some
+  edgewalk sweep sphere --machine hx8k --vary formats.z_fraction=6..14 --vary setup.lanes=1,2,4 --fits ice40-hx8k --require 'z_error<=1' --out out/fit
+  edgewalk sweep teapot.obj sphere --vary fifo.span=1..64 --vary fifo.inflight=1..16 --vary formats.z_fraction=0..24 \
+--vary formats.color_fraction=4..16 --vary interpolator.adders=1,2,4 --search 2000 --seed 7 --out out/search
+  edgewalk sweep plan teapot.obj --vary formats.z_fraction=4..24 --chunks 8 --out out/grid
+  edgewalk sweep why 3f2a --out out/sweep";
+
+/// Examples, and the names of all objectives.
+fn after_help() -> String {
+    let names = |synth: bool| {
+        let of = OBJECTIVES.iter().filter(|objective| objective.synth == synth);
+        of.map(|objective| objective.name).collect::<Vec<_>>().join(" ")
+    };
+    format!("{EXAMPLES}\n\nObjectives: {}\nWith --synth also: {}", names(false), names(true))
 }
 
 #[derive(clap::Subcommand)]

@@ -86,13 +86,9 @@ impl Run<'_> {
         let Some(broken) = self.sweep.requirements.iter().find(|of| of.rules_out_early(&row)) else {
             return Ok(false);
         };
+        let reason = format!("required: {broken}; by the estimate: {}", broken.estimated(&row));
         let estimate = row["estimate"].take();
-        let mut row = without_figures(
-            self.sweep,
-            point,
-            Status::Pruned,
-            &format!("required: {broken}: by the estimate"),
-        );
+        let mut row = without_figures(self.sweep, point, Status::Pruned, &reason);
         row["estimate"] = estimate;
         self.put(row, Instant::now())?;
         Ok(true)

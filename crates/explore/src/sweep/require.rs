@@ -160,6 +160,22 @@ impl Requirement {
         }
     }
 
+    /// What the estimate says of it: the figure with its error, or why the device is too small.
+    #[must_use]
+    pub fn estimated(&self, row: &Value) -> String {
+        match self {
+            Requirement::Fits(device) => {
+                of_device(row, device).and_then(|of| of["text"].as_str()).unwrap_or_default().to_owned()
+            }
+            Requirement::Figure { objective, estimate, .. } => {
+                let of = estimate.as_ref().unwrap_or(objective);
+                let error = of.error_of(row);
+                let value = of.of(row).map_or_else(|| "unknown".to_owned(), |value| format!("{value:.1}"));
+                if error > 0.0 { format!("{value} ± {error:.1}") } else { value }
+            }
+        }
+    }
+
     /// Whether a machine, whose rows these are, breaks it. What is not known breaks nothing.
     #[must_use]
     pub fn rules_out(&self, judge: &Judge, rows: &[Vec<&Value>]) -> bool {
@@ -218,8 +234,11 @@ fn first(text: &str) -> String {
 
 /// What the estimate says of a device; none where its error leaves that open.
 fn fits(row: &Value, device: &str) -> Option<bool> {
-    let list = row.pointer("/estimate/fits")?.as_array()?;
-    list.iter().find(|of| of["device"] == device)?["fits"].as_bool()
+    of_device(row, device)?["fits"].as_bool()
+}
+
+fn of_device<'v>(row: &'v Value, device: &str) -> Option<&'v Value> {
+    row.pointer("/estimate/fits")?.as_array()?.iter().find(|of| of["device"] == device)
 }
 
 #[cfg(test)]

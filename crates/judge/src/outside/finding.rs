@@ -139,8 +139,8 @@ pub struct Judgement {
     pub tolerance: Tolerance,
     /// Pixels of which all that was compared agrees.
     pub agree: u64,
-    /// Largest errors of depth and colour of these, LSB.
-    pub largest_error_lsb: [f64; 2],
+    /// Largest errors of depth and colour of these, LSB; none of what was not compared.
+    pub largest_error_lsb: [Option<f64>; 2],
     /// Pixels by cause.
     pub causes: Vec<Count>,
     /// The first pixels of each cause.
@@ -185,7 +185,7 @@ impl Judgement {
             compared: arrays.into_iter().filter_map(|(name, there)| there.then_some(name)).collect(),
             tolerance,
             agree: 0,
-            largest_error_lsb: [0.0; 2],
+            largest_error_lsb: [outside.z.is_some(), outside.rgb.is_some()].map(|there| there.then_some(0.0)),
             causes: Cause::ALL.map(|cause| Count { cause, wrong: cause.is_wrong(), pixels: 0 }).to_vec(),
             examples: Vec::new(),
             map: vec![AGREES; reference.coverage.len()],
@@ -195,8 +195,9 @@ impl Judgement {
 
     pub(super) fn agrees(&mut self, errors: [f64; 2]) {
         self.agree += 1;
-        let [z, color] = self.largest_error_lsb;
-        self.largest_error_lsb = [z.max(errors[0]), color.max(errors[1])];
+        for (largest, error) in self.largest_error_lsb.iter_mut().zip(errors) {
+            *largest = largest.map(|largest| largest.max(error));
+        }
     }
 
     /// `edge` is asked for the pixels that are told one by one.
@@ -247,18 +248,23 @@ impl Judgement {
     /// As lines of text.
     #[must_use]
     pub fn lines(&self) -> String {
-        let Judgement { pixels, covered, agree, tolerance, largest_error_lsb: [z, color], .. } = self;
+        let Judgement { pixels, covered, agree, tolerance, largest_error_lsb, .. } = self;
         let mut t = format!(
             "compared {} of {pixels} pixels, {covered} of them covered\n{agree} agree; {} differ, {} of them wrong\n",
             self.compared.join(", "),
             self.differ(),
             self.wrong()
         );
-        t += &format!(
-            "depth: tolerance {:.4} LSB of {} bits, largest error where pixels agree {z:.4}\n\
-             colour: tolerance {:.4} LSB of {} bits, largest error where pixels agree {color:.4}\n",
-            tolerance.z, tolerance.z_bits, tolerance.color, tolerance.color_bits
-        );
+        let kinds = [
+            ("depth", tolerance.z, tolerance.z_bits, largest_error_lsb[0]),
+            ("colour", tolerance.color, tolerance.color_bits, largest_error_lsb[1]),
+        ];
+        for (name, permitted, bits, largest) in kinds {
+            let Some(largest) = largest else { continue };
+            t += &format!(
+                "{name}: tolerance {permitted:.4} LSB of {bits} bits, largest error where pixels agree {largest:.4}\n"
+            );
+        }
         for Count { cause, pixels, .. } in self.causes.iter().filter(|count| count.pixels > 0) {
             t += &format!("{pixels} {}\n{}", cause.text(), self.lines_of(*cause));
         }

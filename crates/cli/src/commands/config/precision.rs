@@ -42,6 +42,11 @@ impl Precision {
         }
     }
 
+    /// Largest errors of depth and colour, LSB; none where the output may wrap.
+    pub fn bounds(&self) -> [Option<f64>; 2] {
+        [self.z.bound, self.color.bound]
+    }
+
     /// As lines of text. Writing to a string cannot fail.
     pub fn text(&self) -> String {
         let mut t = String::new();
