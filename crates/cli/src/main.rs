@@ -36,7 +36,7 @@ mod triangles;
 mod verdict;
 
 use anyhow::{Result, anyhow};
-use clap::{CommandFactory as _, Parser, Subcommand};
+use clap::{CommandFactory as _, FromArgMatches as _, Parser, Subcommand};
 use commands::{
     bench, calibrate, compare, completions, config, demo, emit, energy, estimate, explain, gallery, judge,
     man, mutants, raster, render, replay, size, sweep, synth, trace, vectors, verify,
@@ -110,7 +110,10 @@ fn keep_freed_memory() {
 
 fn main() -> ExitCode {
     keep_freed_memory();
-    let (talk, result) = match Cli::try_parse() {
+    // A negative number is a value, which the command refuses with what it permits.
+    let command = Cli::command().mut_subcommands(|command| command.allow_negative_numbers(true));
+    let asked = command.try_get_matches().and_then(|matches| Cli::from_arg_matches(&matches));
+    let (talk, result) = match asked {
         Ok(cli) => {
             let talk = Talk { json: cli.json, quiet: cli.quiet };
             if talk.quiet {

@@ -79,3 +79,38 @@ fn the_demo_is_as_readme_says() {
     let bar = &map[485 * width..486 * width];
     assert_eq!((bar[8], bar[631]), ([70, 150, 255], [255, 150, 30]), "ends of the scale");
 }
+
+/// The command that `demo` prints at its end, run as it is, shows the machine and the input of the demo.
+#[test]
+fn the_command_at_the_end_shows_the_same_machine() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = folder.path();
+    let text = "size 16 12\nT 1 1 .5 1 0 0 0  12 1 .5 1 0 0 0  1 11 .5 1 0 0 0\n";
+    std::fs::write(at.join("a b.tri"), text).unwrap();
+    let demo = |input: &str| {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_edgewalk"));
+        command.current_dir(at).args([
+            "demo",
+            input,
+            "--out",
+            "d e",
+            "--machine",
+            "small",
+            "--set",
+            "memory.latency=5",
+        ]);
+        let output = command.stdin(std::fs::File::open(at.join("a b.tri")).unwrap()).output().unwrap();
+        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+        String::from_utf8(output.stdout).unwrap()
+    };
+    let printed = demo("a b.tri");
+    let line = printed.lines().find_map(|line| line.strip_prefix("at work   edgewalk ")).unwrap();
+    let words = line.strip_suffix(": open its page in a browser").unwrap();
+    let shell = format!("'{}' {words} --json", env!("CARGO_BIN_EXE_edgewalk"));
+    let output = Command::new("sh").args(["-c", &shell]).current_dir(at).output().unwrap();
+    let told: Value = serde_json::from_slice(&output.stdout).unwrap_or_else(|e| panic!("{line}: {e}"));
+    let report: Value = serde_json::from_slice(&std::fs::read(at.join("d e/report.json")).unwrap()).unwrap();
+    assert!(report["machine"].is_string() && told["hash"] == report["machine"], "{line}: {told} {report}");
+    // The standard input is used up.
+    assert!(!demo("-").contains("at work"));
+}

@@ -305,3 +305,34 @@ fn the_target_may_be_a_mount_point() {
     }
     assert!(checked > 0, "neither a mount namespace nor /dev/shm: nothing was checked");
 }
+
+/// A pipe in the place of a file is named and stays.
+#[test]
+fn a_pipe_is_not_replaced() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = folder.path();
+    std::fs::write(at.join("a.tri"), "size 16 12\nT 1 1 .5 1 0 0 0  12 1 .5 1 0 0 0  1 11 .5 1 0 0 0\n")
+        .unwrap();
+    std::fs::create_dir(at.join("r")).unwrap();
+    let pipes = ["p.tri", "p.vcd", "p.html", "r/image.png"].map(|name| at.join(name));
+    for pipe in &pipes {
+        assert!(std::process::Command::new("mkfifo").arg(pipe).status().unwrap().success());
+    }
+    for words in [
+        &["triangles", "a.tri", "--out", "p.tri"][..],
+        &["trace", "a.tri", "--out", "p.vcd"],
+        &["replay", "a.tri", "--out", "p.html"],
+        &["raster", "a.tri", "--out", "r"],
+    ] {
+        let (code, text) = crate::support::run(at, words);
+        assert!(
+            code == Some(2) && text.contains("is a pipe, a socket or a device"),
+            "{words:?}: {code:?} {text}"
+        );
+    }
+    use std::os::unix::fs::FileTypeExt;
+    for pipe in &pipes {
+        assert!(std::fs::symlink_metadata(pipe).unwrap().file_type().is_fifo(), "{}", pipe.display());
+    }
+    assert_eq!(std::fs::read_dir(at.join("r")).unwrap().count(), 1, "nothing half-written");
+}

@@ -70,7 +70,7 @@ impl Staging {
         let stale = own.iter().map(|name| PathBuf::from(name.as_ref())).filter(|name| {
             let there = fs::symlink_metadata(self.target.join(name));
             !names.contains(name)
-                && there.is_ok_and(|there| !there.is_dir())
+                && there.is_ok_and(|there| there.is_file() || there.is_symlink())
                 && link_on_the_way(&self.target, name).is_none()
         });
         let stale: Vec<PathBuf> = stale.collect();
@@ -138,7 +138,14 @@ impl Moves {
                     at()
                 ));
             }
-            Ok(_) => self.put_away(target)?,
+            // A link is replaced, not what it leads to.
+            Ok(there) if there.is_file() || there.is_symlink() => self.put_away(target)?,
+            Ok(_) => {
+                return Err(anyhow!(
+                    "{}: is a pipe, a socket or a device; name a file, or one that is not there yet",
+                    at()
+                ));
+            }
             Err(_) => {}
         }
         self.rename(new, target).with_context(at)

@@ -122,20 +122,23 @@ impl Key {
         }
     }
 
-    /// The permitted value that is nearest to a refused one; none where every word is far.
+    /// The permitted value that is nearest to a refused one; none of what is no number, or where every word is far.
     fn nearest(&self, text: &str) -> Option<String> {
+        let number = || text.parse::<f64>().ok().filter(|number| number.is_finite());
         Some(match self.domain {
-            Word(words) => edgewalk_nearest::nearest(text, words.iter().copied())?.to_owned(),
-            Range(low, high) => match text.parse::<f64>() {
-                Ok(v) => (v.round().clamp(f64::from(low), f64::from(high)) as u32).to_string(),
-                Err(_) => low.to_string(),
-            },
+            Word(words) => {
+                let word = match text {
+                    "true" => "yes",
+                    "false" => "no",
+                    word => word,
+                };
+                edgewalk_nearest::nearest(word, words.iter().copied())?.to_owned()
+            }
+            Range(low, high) => (number()?.round().clamp(f64::from(low), f64::from(high)) as u32).to_string(),
             OneOf(list) => {
-                let wanted = text.parse::<f64>().unwrap_or(f64::from(list[0]));
+                let wanted = number()?;
                 let distance = |v: &&u32| (f64::from(**v) - wanted).abs();
-                list.iter()
-                    .min_by(|a, b| distance(a).total_cmp(&distance(b)))
-                    .map_or_else(String::new, ToString::to_string)
+                list.iter().min_by(|a, b| distance(a).total_cmp(&distance(b)))?.to_string()
             }
         })
     }

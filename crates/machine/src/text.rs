@@ -62,10 +62,11 @@ impl Machine {
             for (name, value) in entries {
                 let full = format!("{}.{}", section.get_ref(), name.get_ref());
                 let shown = match value.get_ref() {
-                    DeValue::Integer(i) => i.to_string(),
+                    // TOML's hexadecimal, octal and binary digits are those of Rust.
+                    DeValue::Integer(i) => i64::from_str_radix(i.as_str(), i.radix())
+                        .map_or_else(|_| text[value.span()].to_owned(), |number| number.to_string()),
                     DeValue::String(s) => s.to_string(),
-                    DeValue::Float(f) => f.to_string(),
-                    other => other.type_str().to_owned(),
+                    _ => text[value.span()].to_owned(),
                 };
                 machine.set(&full, &shown).map_err(|e| e.at(text, name.span().start))?;
             }

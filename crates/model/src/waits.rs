@@ -215,6 +215,13 @@ impl FromStr for Waits {
             })?;
             waits.set(name, number);
         }
+        if let Waits::Dram(Dram { refresh, busy, .. }) = waits
+            && (1..=busy).contains(&refresh)
+        {
+            return Err(WaitsError(format!(
+                "dram: refresh = {refresh} is not permitted with busy = {busy}: the memory would never be free (0, or more than {busy})"
+            )));
+        }
         Ok(waits)
     }
 }
@@ -400,13 +407,18 @@ mod tests {
         let ready: Vec<bool> = turned.iter().map(|step| step.0[1]).collect();
         assert_eq!(ready, [false, false, true, false, true, false, false, false, true]);
         assert_eq!(turned[5].1, 1);
-        // A refresh closes the page.
-        let refreshed = run("dram:miss=2,refresh=2,busy=3", &[read(0), none, none, none, none, none, none]);
+        // A refresh comes every four clocks and takes three.
+        let refreshed = run("dram:miss=2,refresh=4,busy=3", &[none; 10]);
         let ready: Vec<bool> = refreshed.iter().map(|step| step.0[0]).collect();
-        assert_eq!(
-            ready,
-            [false, false, false, false, false, false, false],
-            "each refresh takes longer than it is to the next"
+        assert_eq!(ready, [true, true, true, true, false, false, false, true, false, false]);
+        for (text, least) in
+            [("dram:refresh=13", 14), ("dram:busy=4,refresh=1", 5), ("dram:refresh=255,busy=255", 256)]
+        {
+            let refused = text.parse::<Waits>().expect_err("never free").to_string();
+            assert!(refused.contains(&format!("more than {}", least - 1)), "{refused}");
+        }
+        assert!(
+            "dram:refresh=14".parse::<Waits>().is_ok() && "dram:refresh=1,busy=0".parse::<Waits>().is_ok()
         );
     }
 }

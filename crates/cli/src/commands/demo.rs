@@ -6,13 +6,16 @@ use crate::engine::Engine;
 use crate::input::{Source, to_port};
 use crate::machine_args::MachineArgs;
 use crate::pictures::{FILES, pictures};
+use crate::shell::quoted;
 use crate::suites;
 use crate::talk::{self, Talk};
 use crate::verdict::Verdict;
 use anyhow::Result;
 use edgewalk_explain::accumulators::depth_error_over_bound;
 use edgewalk_files::{Staging, picture};
+
 use edgewalk_model::Waits;
+use edgewalk_scene::InputKind;
 use edgewalk_vectors::{Tables, Unit};
 use std::path::PathBuf;
 
@@ -38,8 +41,8 @@ pub struct Args {
 const ACCUMULATOR: &str = "z_accumulator.png";
 
 /// Runs the command.
-pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
-    let machine = args.source.machine(machine)?;
+pub fn run(args: &Args, asked_for: &MachineArgs, talk: Talk) -> Result<Verdict> {
+    let machine = args.source.machine(asked_for)?;
     let frame = args.source.frame(&machine)?;
     let out = Staging::new(&args.out)?;
     let mut ids = Vec::new();
@@ -74,17 +77,27 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
     out.publish(&[&own[..], &pictures, &[ACCUMULATOR.to_owned()]].concat())?;
     talk.say(|| document("report", &report), || report.text())?;
     if !talk.quiet && !talk.json {
+        // What came from the standard input is used up.
+        let at_work = match args.source.input == InputKind::STANDARD_INPUT {
+            true => String::new(),
+            false => {
+                let page = args.out.join("replay.html").display().to_string();
+                let words = ["edgewalk".to_owned(), "replay".to_owned()].into_iter();
+                let words = words.chain(asked_for.words().into_iter().map(str::to_owned));
+                let words = words.chain(["--out".to_owned(), page]).chain(args.source.words());
+                let command = words.map(|word| quoted(&word)).collect::<Vec<_>>().join(" ");
+                format!("\nat work   {command}: open its page in a browser")
+            }
+        };
         let at = args.out.display();
         let dda = if dda.is_some() { " z_accumulator.png" } else { "" };
         talk::print(&format!(
             "pictures  {at}/golden.png image.png z_error.png color_error.png{dda}\n\
              report    {at}/report.txt report.json\n\
              verilog   {at}/hdl, {} modules\n\
-             vectors   {at}/vectors: {}\n\
-             at work   edgewalk replay {} --out {at}/replay.html: open it in a browser",
+             vectors   {at}/vectors: {}{at_work}",
             modules.len(),
             written.join(" "),
-            args.source.input
         ))?;
     }
     verdict.or_nothing(&args.source.input, frame.triangles.len() as u64, (machine.width, machine.height))

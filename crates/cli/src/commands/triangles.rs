@@ -5,7 +5,7 @@ use crate::input::Source;
 use crate::machine_args::MachineArgs;
 use crate::verdict::Verdict;
 use crate::{Talk, talk};
-use anyhow::{Context as _, Result};
+use anyhow::{Context as _, Result, anyhow};
 use edgewalk_files::Staging;
 use edgewalk_scene::{InputKind, TJoint, triangle_file};
 use serde_json::json;
@@ -45,6 +45,11 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
         count => format!(" and {count} lines"),
     };
     if args.out == Path::new(InputKind::STANDARD_INPUT) {
+        if talk.json {
+            return Err(anyhow!(
+                "--out - with --json: the triangle file takes the standard output; leave --json out, or name a file"
+            ));
+        }
         talk::print(&String::from_utf8(text).context("a triangle file is ASCII")?)?;
     } else {
         let name = args.out.file_name().and_then(|name| name.to_str()).context("--out: no file name")?;

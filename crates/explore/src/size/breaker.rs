@@ -80,12 +80,16 @@ impl Breaker {
     }
 }
 
-/// The machine with other fraction bits of depth or colour.
+/// The machine with other fraction bits of depth or colour. Its adders are whole: segments change no value, and a shorter word
+/// may have too few bits for them.
 fn with_bits(machine: &Plan, place: usize, bits: u32) -> Result<Plan> {
     let precision = with_fraction(machine.channels()[place], bits).precision;
-    let machine = machine.with(|keys| match place {
-        0 => keys.z = precision,
-        _ => keys.color = precision,
+    let machine = machine.with(|keys| {
+        keys.segments = 1;
+        match place {
+            0 => keys.z = precision,
+            _ => keys.color = precision,
+        }
     });
     Ok(machine.plan()?)
 }

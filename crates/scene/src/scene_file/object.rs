@@ -64,10 +64,7 @@ fn built_in(table: &Table, place: usize) -> Result<Mesh, InputError> {
 
 /// First scaled, then turned about the fixed z axis, then y, then x, then moved.
 fn placed(table: &Table) -> Result<DAffine3, InputError> {
-    let scale = table.color("scale", 1e6)?.unwrap_or(DVec3::ONE);
-    if scale.min_element() < 1e-6 {
-        return Err(table.fault("scale", scale, "permitted: a number or [x, y, z], each from 1e-6 to 1e6"));
-    }
+    let scale = table.factors("scale")?.unwrap_or(DVec3::ONE);
     let [x, y, z] = table.vector("rotate", 360.0)?.unwrap_or(DVec3::ZERO).to_array().map(f64::to_radians);
     let turn = DQuat::from_euler(EulerRot::ZYXEx, z, y, x);
     let translate = table.vector("translate", MAX_POSITION)?.unwrap_or(DVec3::ZERO);

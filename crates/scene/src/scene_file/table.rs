@@ -173,6 +173,16 @@ impl<'a> Table<'a> {
         }
     }
 
+    /// Factors along x, y and z from 1e-6 to 1e6: a list of three numbers, or one for all.
+    pub fn factors(&self, key: &str) -> Result<Option<DVec3>, InputError> {
+        let Some(value) = self.value(key) else { return Ok(None) };
+        let factors = triple(value.get_ref()).or_else(|| number(value.get_ref()).map(DVec3::splat));
+        match factors.filter(|f| f.min_element() >= 1e-6 && f.max_element() <= 1e6) {
+            Some(factors) => Ok(Some(factors)),
+            None => Err(self.wrong(key, "permitted: a number or [x, y, z], each from 1e-6 to 1e6")),
+        }
+    }
+
     /// A list of lists of three numbers within ±`limit`.
     pub fn vectors(&self, key: &str, limit: f64) -> Result<Option<Vec<DVec3>>, InputError> {
         let Some(value) = self.value(key) else { return Ok(None) };
