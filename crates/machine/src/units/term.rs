@@ -2,7 +2,7 @@
 
 use super::tokens;
 use crate::field::Field;
-use crate::link::{Held, Link, MemoryPort, Ready, Status};
+use crate::link::{Held, Link, MemoryPort, Ready, Status, Until};
 use crate::machine::Machine;
 use crate::plan::Plan;
 use crate::shade::Walk;
@@ -34,6 +34,7 @@ fn ports(plan: &Plan) -> Ports {
             name: "inc",
             fields: tokens::record(plan).into_iter().collect(),
             beside: "span",
+            until: Until::Offered,
         }],
         memory: vec![MemoryPort {
             name: "terms",
