@@ -101,6 +101,13 @@ impl Status {
         Status { field: Field::count(name, 1, doc), during: None }
     }
 
+    /// Meaning of the port, and when it counts.
+    #[must_use]
+    pub fn meaning(&self) -> String {
+        let during = self.during.map(|port| format!(", while {port} is 1")).unwrap_or_default();
+        format!("{}{during}", self.field)
+    }
+
     pub(crate) fn during(self, port: &'static str) -> Status {
         Status { during: Some(port), ..self }
     }

@@ -40,5 +40,5 @@ fn ports(plan: &Plan) -> Ports {
 
 events! {
     fence = "fragments that carry a fence" if always;
-    off_screen = "pixels stepped over off the screen" if always;
+    off_screen = "pixels stepped over off the screen" if |plan| !plan.polygon.is_there();
 }

@@ -32,7 +32,7 @@ fn ports(plan: &Plan) -> Ports {
         gives: Some(Link::new("walked", tokens::walked(plan))),
         held_in: vec![Held {
             name: "inc",
-            fields: tokens::record(plan).into_iter().collect(),
+            fields: tokens::held_record(plan),
             beside: "span",
             until: Until::Offered,
         }],
