@@ -20,7 +20,7 @@ pub struct Kept {
 }
 
 impl Kept {
-    /// Those of the unit that has the ports, and of the units inside.
+    /// Values held by the unit that has the ports, and by the units inside.
     #[must_use]
     pub fn of(interface: &Interface) -> Vec<Kept> {
         let own = interface.links.iter().filter(|link| link.holds()).filter_map(|link| {

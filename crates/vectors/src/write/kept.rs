@@ -17,7 +17,7 @@ pub struct Kept<'a> {
     pub ends: Option<&'a Port>,
 }
 
-/// Those of a unit.
+/// The channels of a unit with values held beside them.
 pub fn all(interface: &Interface) -> impl Iterator<Item = Kept<'_>> {
     interface.links.iter().filter(|link| link.holds()).filter_map(|link| {
         let taken = interface.links_of(Direction::In).next()?;
