@@ -5,6 +5,7 @@ mod results;
 mod stored;
 
 pub use held::*;
+use held::{kt, triangle_kt};
 pub use results::*;
 pub use stored::*;
 
@@ -28,23 +29,6 @@ pub fn remainder_bits(plan: &Plan) -> u32 {
 /// The tag, if the machine has one.
 fn tag(plan: &Plan) -> Option<Field> {
     (plan.tag_bits > 0).then(|| Field::count("tag", plan.tag_bits, "tag of the triangle"))
-}
-
-/// k_t, one bit more than below 1.
-fn kt(plan: &Plan) -> Field {
-    Field::count("kt", plan.blend.kt_bits + 1, format!("kt, 2^{} for 1.0", plan.blend.kt_bits))
-}
-
-/// The k_t of the triangle, if it has one.
-fn triangle_kt(plan: &Plan) -> Option<Field> {
-    plan.has_triangle_kt().then(|| kt(plan))
-}
-
-/// The number of the triangle's record, if the machine has TERM.
-#[must_use]
-pub fn record(plan: &Plan) -> Option<Field> {
-    let bits = plan.shade.record_bits;
-    plan.shade.is_there().then(|| Field::count("record", bits, "record with the triangle's terms"))
 }
 
 /// A triangle, line or part of a polygon at the port: three vertices, its k_t, its role, its window and the tag.

@@ -1,9 +1,25 @@
-//! What EDGE holds for PIXEL and TERM, and the interpolated words that it is made of.
+//! What EDGE holds for PIXEL and TERM: words of the channels, k_t and the record.
 
-use super::{record, triangle_kt};
 use crate::channel::Channel;
 use crate::field::Field;
 use crate::plan::Plan;
+
+/// k_t, one bit more than below 1.
+pub(super) fn kt(plan: &Plan) -> Field {
+    Field::count("kt", plan.blend.kt_bits + 1, format!("kt, 2^{} for 1.0", plan.blend.kt_bits))
+}
+
+/// The k_t of the triangle, if it has one.
+pub(super) fn triangle_kt(plan: &Plan) -> Option<Field> {
+    plan.has_triangle_kt().then(|| kt(plan))
+}
+
+/// The number of the triangle's record, if the machine has TERM.
+#[must_use]
+pub fn record(plan: &Plan) -> Option<Field> {
+    let bits = plan.shade.record_bits;
+    plan.shade.is_there().then(|| Field::count("record", bits, "record with the triangle's terms"))
+}
 
 /// The interpolated words, a field a channel; `doc` says of what it is called what this word is.
 pub(super) fn words(plan: &Plan, doc: impl Fn(&str) -> String) -> Vec<Field> {
