@@ -49,20 +49,20 @@ module edgewalk_poly (
   input  wire [37:0] prim_z_start,      // UQ24.14 LSB, modular, value at pixel (start_x, start_y)
   input  wire [37:0] prim_z_d0,         // UQ24.14 LSB, modular, step to the next line
   input  wire [37:0] prim_z_g,          // UQ24.14 LSB, modular, step to the next pixel to the right
-  input  wire [21:0] prim_height02,     // lines from vertex 0 to 2 of those sorted by line, 1/P line
-  input  wire [21:0] prim_height01,     // lines from vertex 0 to 1 of those sorted by line, 1/P line
-  input  wire [21:0] prim_height12,     // lines from vertex 1 to 2 of those sorted by line, 1/P line
-  input  wire [21:0] prim_down0,        // from vertex 0 down to the first line, 1/P line
-  input  wire [21:0] prim_down1,        // from vertex 1 down to the first line of the lower part, 1/P line
-  input  wire [11:0] prim_r_at0,        // UQ8.4 LSB
-  input  wire [11:0] prim_r_at1,        // UQ8.4 LSB
-  input  wire [11:0] prim_r_at2,        // UQ8.4 LSB
-  input  wire [11:0] prim_g_at0,        // UQ8.4 LSB
-  input  wire [11:0] prim_g_at1,        // UQ8.4 LSB
-  input  wire [11:0] prim_g_at2,        // UQ8.4 LSB
-  input  wire [11:0] prim_b_at0,        // UQ8.4 LSB
-  input  wire [11:0] prim_b_at1,        // UQ8.4 LSB
-  input  wire [11:0] prim_b_at2,        // UQ8.4 LSB
+  input  wire [21:0] prim_height02,     // 2^-8 line, from vertex 0 down to 2 of those sorted by line
+  input  wire [21:0] prim_height01,     // 2^-8 line, from vertex 0 down to 1 of those sorted by line
+  input  wire [21:0] prim_height12,     // 2^-8 line, from vertex 1 down to 2 of those sorted by line
+  input  wire [21:0] prim_down0,        // 2^-8 line, from vertex 0 down to the first line
+  input  wire [21:0] prim_down1,        // 2^-8 line, from vertex 1 down to the first line of the lower part
+  input  wire [11:0] prim_r_at0,        // UQ8.4 LSB, red at vertex 0 of those sorted by line
+  input  wire [11:0] prim_r_at1,        // UQ8.4 LSB, red at vertex 1 of those sorted by line
+  input  wire [11:0] prim_r_at2,        // UQ8.4 LSB, red at vertex 2 of those sorted by line
+  input  wire [11:0] prim_g_at0,        // UQ8.4 LSB, green at vertex 0 of those sorted by line
+  input  wire [11:0] prim_g_at1,        // UQ8.4 LSB, green at vertex 1 of those sorted by line
+  input  wire [11:0] prim_g_at2,        // UQ8.4 LSB, green at vertex 2 of those sorted by line
+  input  wire [11:0] prim_b_at0,        // UQ8.4 LSB, blue at vertex 0 of those sorted by line
+  input  wire [11:0] prim_b_at1,        // UQ8.4 LSB, blue at vertex 1 of those sorted by line
+  input  wire [11:0] prim_b_at2,        // UQ8.4 LSB, blue at vertex 2 of those sorted by line
   input  wire        line_ready,
   input  wire        fresh_queued,      // the polygon before has not reached PIXEL yet
 
@@ -72,16 +72,16 @@ module edgewalk_poly (
   output reg  [14:0] line_cmaj,         // signed, first column of the span
   output reg  [14:0] line_cmin,         // signed, column behind the span
   output wire        line_major_right,  // the major edge is the right one
-  output reg  [37:0] line_z,            // UQ24.14 LSB, modular
-  output reg  [21:0] line_r,            // UQ8.14 LSB, modular
-  output reg  [21:0] line_g,            // UQ8.14 LSB, modular
-  output reg  [21:0] line_b,            // UQ8.14 LSB, modular
+  output reg  [37:0] line_z,            // UQ24.14 LSB, modular, depth at the first pixel of the line
+  output reg  [21:0] line_r,            // UQ8.14 LSB, modular, red at the first pixel of the line
+  output reg  [21:0] line_g,            // UQ8.14 LSB, modular, green at the first pixel of the line
+  output reg  [21:0] line_b,            // UQ8.14 LSB, modular, blue at the first pixel of the line
   output wire        line_fresh,        // first span of the polygon
   output wire        line_fence,        // older fragments of the same pixel may be in flight
-  output reg  [37:0] inc_z,             // UQ24.14 LSB, modular
-  output reg  [21:0] inc_r,             // UQ8.14 LSB, modular
-  output reg  [21:0] inc_g,             // UQ8.14 LSB, modular
-  output reg  [21:0] inc_b,             // UQ8.14 LSB, modular
+  output reg  [37:0] inc_z,             // UQ24.14 LSB, modular, increment of depth a pixel along the span; counts with line_valid
+  output reg  [21:0] inc_r,             // UQ8.14 LSB, modular, increment of red a pixel along the span; counts with line_valid
+  output reg  [21:0] inc_g,             // UQ8.14 LSB, modular, increment of green a pixel along the span; counts with line_valid
+  output reg  [21:0] inc_b,             // UQ8.14 LSB, modular, increment of blue a pixel along the span; counts with line_valid
   output wire        walking,           // a polygon is walked, or its last span waits
   output wire        refused            // a polygon ends here that has more edges than the table: nothing of it is drawn
 );

@@ -22,24 +22,24 @@ module edgewalk_setup (
   input  wire        rst,
 
   input  wire        tri_valid,
-  input  wire [21:0] tri_x0,            // Q14.8 px
-  input  wire [21:0] tri_y0,            // Q14.8 px
-  input  wire [27:0] tri_z0,            // UQ24.4 LSB
-  input  wire [11:0] tri_r0,            // UQ8.4 LSB
-  input  wire [11:0] tri_g0,            // UQ8.4 LSB
-  input  wire [11:0] tri_b0,            // UQ8.4 LSB
-  input  wire [21:0] tri_x1,            // Q14.8 px
-  input  wire [21:0] tri_y1,            // Q14.8 px
-  input  wire [27:0] tri_z1,            // UQ24.4 LSB
-  input  wire [11:0] tri_r1,            // UQ8.4 LSB
-  input  wire [11:0] tri_g1,            // UQ8.4 LSB
-  input  wire [11:0] tri_b1,            // UQ8.4 LSB
-  input  wire [21:0] tri_x2,            // Q14.8 px
-  input  wire [21:0] tri_y2,            // Q14.8 px
-  input  wire [27:0] tri_z2,            // UQ24.4 LSB
-  input  wire [11:0] tri_r2,            // UQ8.4 LSB
-  input  wire [11:0] tri_g2,            // UQ8.4 LSB
-  input  wire [11:0] tri_b2,            // UQ8.4 LSB
+  input  wire [21:0] tri_x0,            // Q14.8 px, x of vertex 0
+  input  wire [21:0] tri_y0,            // Q14.8 px, y of vertex 0
+  input  wire [27:0] tri_z0,            // UQ24.4 LSB, depth of vertex 0
+  input  wire [11:0] tri_r0,            // UQ8.4 LSB, red of vertex 0
+  input  wire [11:0] tri_g0,            // UQ8.4 LSB, green of vertex 0
+  input  wire [11:0] tri_b0,            // UQ8.4 LSB, blue of vertex 0
+  input  wire [21:0] tri_x1,            // Q14.8 px, x of vertex 1
+  input  wire [21:0] tri_y1,            // Q14.8 px, y of vertex 1
+  input  wire [27:0] tri_z1,            // UQ24.4 LSB, depth of vertex 1
+  input  wire [11:0] tri_r1,            // UQ8.4 LSB, red of vertex 1
+  input  wire [11:0] tri_g1,            // UQ8.4 LSB, green of vertex 1
+  input  wire [11:0] tri_b1,            // UQ8.4 LSB, blue of vertex 1
+  input  wire [21:0] tri_x2,            // Q14.8 px, x of vertex 2
+  input  wire [21:0] tri_y2,            // Q14.8 px, y of vertex 2
+  input  wire [27:0] tri_z2,            // UQ24.4 LSB, depth of vertex 2
+  input  wire [11:0] tri_r2,            // UQ8.4 LSB, red of vertex 2
+  input  wire [11:0] tri_g2,            // UQ8.4 LSB, green of vertex 2
+  input  wire [11:0] tri_b2,            // UQ8.4 LSB, blue of vertex 2
   input  wire  [1:0] tri_kind,          // 0 triangle, 1 edges, 2 edges and plane, 3 line
   input  wire  [2:0] tri_sides,         // of kinds 1 and 2: sides 0-1, 1-2 and 2-0 are edges, a bit each
   input  wire  [9:0] tri_start_x,       // column of the pixel at which values start
@@ -73,20 +73,20 @@ module edgewalk_setup (
   output reg  [37:0] prim_z_start,      // UQ24.14 LSB, modular, value at pixel (start_x, start_y)
   output reg  [37:0] prim_z_d0,         // UQ24.14 LSB, modular, step to the next line
   output reg  [37:0] prim_z_g,          // UQ24.14 LSB, modular, step to the next pixel to the right
-  output wire [21:0] prim_height02,     // lines from vertex 0 to 2 of those sorted by line, 1/P line
-  output wire [21:0] prim_height01,     // lines from vertex 0 to 1 of those sorted by line, 1/P line
-  output wire [21:0] prim_height12,     // lines from vertex 1 to 2 of those sorted by line, 1/P line
-  output wire [21:0] prim_down0,        // from vertex 0 down to the first line, 1/P line
-  output wire [21:0] prim_down1,        // from vertex 1 down to the first line of the lower part, 1/P line
-  output wire [11:0] prim_r_at0,        // UQ8.4 LSB
-  output wire [11:0] prim_r_at1,        // UQ8.4 LSB
-  output wire [11:0] prim_r_at2,        // UQ8.4 LSB
-  output wire [11:0] prim_g_at0,        // UQ8.4 LSB
-  output wire [11:0] prim_g_at1,        // UQ8.4 LSB
-  output wire [11:0] prim_g_at2,        // UQ8.4 LSB
-  output wire [11:0] prim_b_at0,        // UQ8.4 LSB
-  output wire [11:0] prim_b_at1,        // UQ8.4 LSB
-  output wire [11:0] prim_b_at2         // UQ8.4 LSB
+  output wire [21:0] prim_height02,     // 2^-8 line, from vertex 0 down to 2 of those sorted by line
+  output wire [21:0] prim_height01,     // 2^-8 line, from vertex 0 down to 1 of those sorted by line
+  output wire [21:0] prim_height12,     // 2^-8 line, from vertex 1 down to 2 of those sorted by line
+  output wire [21:0] prim_down0,        // 2^-8 line, from vertex 0 down to the first line
+  output wire [21:0] prim_down1,        // 2^-8 line, from vertex 1 down to the first line of the lower part
+  output wire [11:0] prim_r_at0,        // UQ8.4 LSB, red at vertex 0 of those sorted by line
+  output wire [11:0] prim_r_at1,        // UQ8.4 LSB, red at vertex 1 of those sorted by line
+  output wire [11:0] prim_r_at2,        // UQ8.4 LSB, red at vertex 2 of those sorted by line
+  output wire [11:0] prim_g_at0,        // UQ8.4 LSB, green at vertex 0 of those sorted by line
+  output wire [11:0] prim_g_at1,        // UQ8.4 LSB, green at vertex 1 of those sorted by line
+  output wire [11:0] prim_g_at2,        // UQ8.4 LSB, green at vertex 2 of those sorted by line
+  output wire [11:0] prim_b_at0,        // UQ8.4 LSB, blue at vertex 0 of those sorted by line
+  output wire [11:0] prim_b_at1,        // UQ8.4 LSB, blue at vertex 1 of those sorted by line
+  output wire [11:0] prim_b_at2         // UQ8.4 LSB, blue at vertex 2 of those sorted by line
 );
 
   // Control: the operations one after the other, a clock each or more; in rounds where there are more jobs than lanes.

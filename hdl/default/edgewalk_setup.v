@@ -22,24 +22,24 @@ module edgewalk_setup (
   input  wire        rst,
 
   input  wire        tri_valid,
-  input  wire [21:0] tri_x0,            // Q14.8 px
-  input  wire [21:0] tri_y0,            // Q14.8 px
-  input  wire [27:0] tri_z0,            // UQ24.4 LSB
-  input  wire [11:0] tri_r0,            // UQ8.4 LSB
-  input  wire [11:0] tri_g0,            // UQ8.4 LSB
-  input  wire [11:0] tri_b0,            // UQ8.4 LSB
-  input  wire [21:0] tri_x1,            // Q14.8 px
-  input  wire [21:0] tri_y1,            // Q14.8 px
-  input  wire [27:0] tri_z1,            // UQ24.4 LSB
-  input  wire [11:0] tri_r1,            // UQ8.4 LSB
-  input  wire [11:0] tri_g1,            // UQ8.4 LSB
-  input  wire [11:0] tri_b1,            // UQ8.4 LSB
-  input  wire [21:0] tri_x2,            // Q14.8 px
-  input  wire [21:0] tri_y2,            // Q14.8 px
-  input  wire [27:0] tri_z2,            // UQ24.4 LSB
-  input  wire [11:0] tri_r2,            // UQ8.4 LSB
-  input  wire [11:0] tri_g2,            // UQ8.4 LSB
-  input  wire [11:0] tri_b2,            // UQ8.4 LSB
+  input  wire [21:0] tri_x0,            // Q14.8 px, x of vertex 0
+  input  wire [21:0] tri_y0,            // Q14.8 px, y of vertex 0
+  input  wire [27:0] tri_z0,            // UQ24.4 LSB, depth of vertex 0
+  input  wire [11:0] tri_r0,            // UQ8.4 LSB, red of vertex 0
+  input  wire [11:0] tri_g0,            // UQ8.4 LSB, green of vertex 0
+  input  wire [11:0] tri_b0,            // UQ8.4 LSB, blue of vertex 0
+  input  wire [21:0] tri_x1,            // Q14.8 px, x of vertex 1
+  input  wire [21:0] tri_y1,            // Q14.8 px, y of vertex 1
+  input  wire [27:0] tri_z1,            // UQ24.4 LSB, depth of vertex 1
+  input  wire [11:0] tri_r1,            // UQ8.4 LSB, red of vertex 1
+  input  wire [11:0] tri_g1,            // UQ8.4 LSB, green of vertex 1
+  input  wire [11:0] tri_b1,            // UQ8.4 LSB, blue of vertex 1
+  input  wire [21:0] tri_x2,            // Q14.8 px, x of vertex 2
+  input  wire [21:0] tri_y2,            // Q14.8 px, y of vertex 2
+  input  wire [27:0] tri_z2,            // UQ24.4 LSB, depth of vertex 2
+  input  wire [11:0] tri_r2,            // UQ8.4 LSB, red of vertex 2
+  input  wire [11:0] tri_g2,            // UQ8.4 LSB, green of vertex 2
+  input  wire [11:0] tri_b2,            // UQ8.4 LSB, blue of vertex 2
   input  wire        prim_ready,
 
   output wire        tri_ready,
@@ -52,17 +52,17 @@ module edgewalk_setup (
   output reg  [21:0] prim_major_dist,   // distance from the edge to that column, 1/M column
   output reg  [14:0] prim_major_q,      // signed, whole columns a line, step of c
   output reg  [21:0] prim_major_f,      // 1/M column a line
-  output wire [21:0] prim_major_m,      // modulus of r and f: the edge's height, 1/P line
+  output wire [21:0] prim_major_m,      // modulus of dist and f: the edge's height; a line has 2^8 units
   output reg  [14:0] prim_minor1_c,     // signed, first column on or right of the edge
   output reg  [21:0] prim_minor1_dist,  // distance from the edge to that column, 1/M column
   output reg  [14:0] prim_minor1_q,     // signed, whole columns a line, step of c
   output reg  [21:0] prim_minor1_f,     // 1/M column a line
-  output wire [21:0] prim_minor1_m,     // modulus of r and f: the edge's height, 1/P line
+  output wire [21:0] prim_minor1_m,     // modulus of dist and f: the edge's height; a line has 2^8 units
   output reg  [14:0] prim_minor2_c,     // signed, first column on or right of the edge
   output reg  [21:0] prim_minor2_dist,  // distance from the edge to that column, 1/M column
   output reg  [14:0] prim_minor2_q,     // signed, whole columns a line, step of c
   output reg  [21:0] prim_minor2_f,     // 1/M column a line
-  output wire [21:0] prim_minor2_m,     // modulus of r and f: the edge's height, 1/P line
+  output wire [21:0] prim_minor2_m,     // modulus of dist and f: the edge's height; a line has 2^8 units
   output reg  [37:0] prim_z_start,      // UQ24.14 LSB, modular, value at the first pixel of the first line
   output reg  [37:0] prim_z_d0,         // UQ24.14 LSB, modular, step to the next line, edge without carry
   output reg  [37:0] prim_z_d1,         // UQ24.14 LSB, modular, step to the next line, edge with carry

@@ -19,24 +19,24 @@ module edgewalk (
   input  wire        rst,
 
   input  wire        tri_valid,
-  input  wire [14:0] tri_x0,       // Q11.4 px
-  input  wire [14:0] tri_y0,       // Q11.4 px
-  input  wire [15:0] tri_z0,       // UQ16.0 LSB
-  input  wire  [7:0] tri_r0,       // UQ8.0 LSB
-  input  wire  [7:0] tri_g0,       // UQ8.0 LSB
-  input  wire  [7:0] tri_b0,       // UQ8.0 LSB
-  input  wire [14:0] tri_x1,       // Q11.4 px
-  input  wire [14:0] tri_y1,       // Q11.4 px
-  input  wire [15:0] tri_z1,       // UQ16.0 LSB
-  input  wire  [7:0] tri_r1,       // UQ8.0 LSB
-  input  wire  [7:0] tri_g1,       // UQ8.0 LSB
-  input  wire  [7:0] tri_b1,       // UQ8.0 LSB
-  input  wire [14:0] tri_x2,       // Q11.4 px
-  input  wire [14:0] tri_y2,       // Q11.4 px
-  input  wire [15:0] tri_z2,       // UQ16.0 LSB
-  input  wire  [7:0] tri_r2,       // UQ8.0 LSB
-  input  wire  [7:0] tri_g2,       // UQ8.0 LSB
-  input  wire  [7:0] tri_b2,       // UQ8.0 LSB
+  input  wire [14:0] tri_x0,       // Q11.4 px, x of vertex 0
+  input  wire [14:0] tri_y0,       // Q11.4 px, y of vertex 0
+  input  wire [15:0] tri_z0,       // UQ16.0 LSB, depth of vertex 0
+  input  wire  [7:0] tri_r0,       // UQ8.0 LSB, red of vertex 0
+  input  wire  [7:0] tri_g0,       // UQ8.0 LSB, green of vertex 0
+  input  wire  [7:0] tri_b0,       // UQ8.0 LSB, blue of vertex 0
+  input  wire [14:0] tri_x1,       // Q11.4 px, x of vertex 1
+  input  wire [14:0] tri_y1,       // Q11.4 px, y of vertex 1
+  input  wire [15:0] tri_z1,       // UQ16.0 LSB, depth of vertex 1
+  input  wire  [7:0] tri_r1,       // UQ8.0 LSB, red of vertex 1
+  input  wire  [7:0] tri_g1,       // UQ8.0 LSB, green of vertex 1
+  input  wire  [7:0] tri_b1,       // UQ8.0 LSB, blue of vertex 1
+  input  wire [14:0] tri_x2,       // Q11.4 px, x of vertex 2
+  input  wire [14:0] tri_y2,       // Q11.4 px, y of vertex 2
+  input  wire [15:0] tri_z2,       // UQ16.0 LSB, depth of vertex 2
+  input  wire  [7:0] tri_r2,       // UQ8.0 LSB, red of vertex 2
+  input  wire  [7:0] tri_g2,       // UQ8.0 LSB, green of vertex 2
+  input  wire  [7:0] tri_b2,       // UQ8.0 LSB, blue of vertex 2
   input  wire  [2:0] depth_func,   // new ? old: 0 never 1 less 2 equal 3 lequal 4 greater 5 notequal 6 gequal 7 always
   input  wire        depth_write,  // write depths of fragments that pass
   input  wire        rd_ready,
@@ -50,11 +50,11 @@ module edgewalk (
   output wire        data_ready,
   output wire        wr_valid,
   output wire [18:0] wr_addr,      // line * 2^10 + column
-  output wire [15:0] wr_z,         // unorm16
+  output wire [15:0] wr_z,         // unorm16, depth of the pixel
   output wire        wr_z_en,      // 1: write the depth as well
-  output wire  [7:0] wr_r,         // unorm8
-  output wire  [7:0] wr_g,         // unorm8
-  output wire  [7:0] wr_b,         // unorm8
+  output wire  [7:0] wr_r,         // unorm8, red of the pixel
+  output wire  [7:0] wr_g,         // unorm8, green of the pixel
+  output wire  [7:0] wr_b,         // unorm8, blue of the pixel
   output wire  [3:0] activity,     // cause of the cycle
   output wire        idle          // no triangle, fragment or write is inside
 );

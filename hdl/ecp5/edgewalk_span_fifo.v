@@ -20,10 +20,10 @@ module edgewalk_span_fifo (
   input  wire  [8:0] in_y,          // line
   input  wire [11:0] in_count,      // pixels of the span, at least 1
   input  wire        in_leftward,   // 1: the span runs towards smaller columns
-  input  wire [27:0] in_z,          // UQ16.12 LSB, modular
-  input  wire [19:0] in_r,          // UQ8.12 LSB, modular
-  input  wire [19:0] in_g,          // UQ8.12 LSB, modular
-  input  wire [19:0] in_b,          // UQ8.12 LSB, modular
+  input  wire [27:0] in_z,          // UQ16.12 LSB, modular, depth at the first pixel of the span
+  input  wire [19:0] in_r,          // UQ8.12 LSB, modular, red at the first pixel of the span
+  input  wire [19:0] in_g,          // UQ8.12 LSB, modular, green at the first pixel of the span
+  input  wire [19:0] in_b,          // UQ8.12 LSB, modular, blue at the first pixel of the span
   input  wire        in_fresh,      // first span of the triangle; increments are new
   input  wire        in_fence,      // older fragments of the same pixel may be in flight
   input  wire        out_ready,
@@ -35,10 +35,10 @@ module edgewalk_span_fifo (
   output wire  [8:0] out_y,         // line
   output wire [11:0] out_count,     // pixels of the span, at least 1
   output wire        out_leftward,  // 1: the span runs towards smaller columns
-  output wire [27:0] out_z,         // UQ16.12 LSB, modular
-  output wire [19:0] out_r,         // UQ8.12 LSB, modular
-  output wire [19:0] out_g,         // UQ8.12 LSB, modular
-  output wire [19:0] out_b,         // UQ8.12 LSB, modular
+  output wire [27:0] out_z,         // UQ16.12 LSB, modular, depth at the first pixel of the span
+  output wire [19:0] out_r,         // UQ8.12 LSB, modular, red at the first pixel of the span
+  output wire [19:0] out_g,         // UQ8.12 LSB, modular, green at the first pixel of the span
+  output wire [19:0] out_b,         // UQ8.12 LSB, modular, blue at the first pixel of the span
   output wire        out_fresh,     // first span of the triangle; increments are new
   output wire        out_fence      // older fragments of the same pixel may be in flight
 );
@@ -64,20 +64,20 @@ module edgewalk_span_fifo (
   reg [8:0] place0_y;       // line
   reg [11:0] place0_count;  // pixels of the span, at least 1
   reg place0_leftward;      // 1: the span runs towards smaller columns
-  reg [27:0] place0_z;      // UQ16.12 LSB, modular
-  reg [19:0] place0_r;      // UQ8.12 LSB, modular
-  reg [19:0] place0_g;      // UQ8.12 LSB, modular
-  reg [19:0] place0_b;      // UQ8.12 LSB, modular
+  reg [27:0] place0_z;      // UQ16.12 LSB, modular, depth at the first pixel of the span
+  reg [19:0] place0_r;      // UQ8.12 LSB, modular, red at the first pixel of the span
+  reg [19:0] place0_g;      // UQ8.12 LSB, modular, green at the first pixel of the span
+  reg [19:0] place0_b;      // UQ8.12 LSB, modular, blue at the first pixel of the span
   reg place0_fresh;         // first span of the triangle; increments are new
   reg place0_fence;         // older fragments of the same pixel may be in flight
   reg [11:0] place1_x;      // signed, first column
   reg [8:0] place1_y;       // line
   reg [11:0] place1_count;  // pixels of the span, at least 1
   reg place1_leftward;      // 1: the span runs towards smaller columns
-  reg [27:0] place1_z;      // UQ16.12 LSB, modular
-  reg [19:0] place1_r;      // UQ8.12 LSB, modular
-  reg [19:0] place1_g;      // UQ8.12 LSB, modular
-  reg [19:0] place1_b;      // UQ8.12 LSB, modular
+  reg [27:0] place1_z;      // UQ16.12 LSB, modular, depth at the first pixel of the span
+  reg [19:0] place1_r;      // UQ8.12 LSB, modular, red at the first pixel of the span
+  reg [19:0] place1_g;      // UQ8.12 LSB, modular, green at the first pixel of the span
+  reg [19:0] place1_b;      // UQ8.12 LSB, modular, blue at the first pixel of the span
   reg place1_fresh;         // first span of the triangle; increments are new
   reg place1_fence;         // older fragments of the same pixel may be in flight
   wire place0_moves = pop || (count <= 2'd0);

@@ -33,11 +33,11 @@ module edgewalk (
   output wire        data_ready,
   output wire        wr_valid,
   output wire [18:0] wr_addr,      // line * 2^10 + column
-  output wire [23:0] wr_z,         // unorm24
+  output wire [23:0] wr_z,         // unorm24, depth of the pixel
   output wire        wr_z_en,      // 1: write the depth as well
-  output wire  [7:0] wr_r,         // unorm8
-  output wire  [7:0] wr_g,         // unorm8
-  output wire  [7:0] wr_b,         // unorm8
+  output wire  [7:0] wr_r,         // unorm8, red of the pixel
+  output wire  [7:0] wr_g,         // unorm8, green of the pixel
+  output wire  [7:0] wr_b,         // unorm8, blue of the pixel
   output wire  [3:0] activity,     // cause of the cycle
   output wire        idle          // no triangle, fragment or write is inside
 );

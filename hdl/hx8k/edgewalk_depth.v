@@ -25,10 +25,10 @@ module edgewalk_depth (
   input  wire        depth_write,  // write depths of fragments that pass
   input  wire        frag_valid,
   input  wire [18:0] frag_addr,    // line * 2^10 + column
-  input  wire [23:0] frag_z,       // unorm24
-  input  wire  [7:0] frag_r,       // unorm8
-  input  wire  [7:0] frag_g,       // unorm8
-  input  wire  [7:0] frag_b,       // unorm8
+  input  wire [23:0] frag_z,       // unorm24, depth of the pixel
+  input  wire  [7:0] frag_r,       // unorm8, red of the pixel
+  input  wire  [7:0] frag_g,       // unorm8, green of the pixel
+  input  wire  [7:0] frag_b,       // unorm8, blue of the pixel
   input  wire        frag_fence,   // older fragments of the same pixel may be in flight
   input  wire        rd_ready,
   input  wire        data_valid,
@@ -41,12 +41,12 @@ module edgewalk_depth (
   output wire        data_ready,
   output reg         wr_valid,     // w holds a pixel to write
   output reg  [18:0] wr_addr,      // line * 2^10 + column
-  output reg  [23:0] wr_z,         // unorm24
+  output reg  [23:0] wr_z,         // unorm24, depth of the pixel
   output reg         wr_z_en,      // 1: write the depth as well
-  output reg   [7:0] wr_r,         // unorm8
-  output reg   [7:0] wr_g,         // unorm8
-  output reg   [7:0] wr_b,         // unorm8
-  output wire        hazard,       // the offered fragment waits for one in flight
+  output reg   [7:0] wr_r,         // unorm8, red of the pixel
+  output reg   [7:0] wr_g,         // unorm8, green of the pixel
+  output reg   [7:0] wr_b,         // unorm8, blue of the pixel
+  output wire        hazard,       // the offered fragment waits for one in flight, while frag_valid is 1
   output wire        full,         // the in-flight queue is full
   output wire        occupied      // a fragment is in flight
 );
@@ -54,37 +54,37 @@ module edgewalk_depth (
   // State: the queue of fragments that wait for their old depths, and the write register w.
   reg [2:0] count;          // fragments in flight
   reg [18:0] place0_addr;   // line * 2^10 + column
-  reg [23:0] place0_z;      // unorm24
-  reg [7:0] place0_r;       // unorm8
-  reg [7:0] place0_g;       // unorm8
-  reg [7:0] place0_b;       // unorm8
+  reg [23:0] place0_z;      // unorm24, depth of the pixel
+  reg [7:0] place0_r;       // unorm8, red of the pixel
+  reg [7:0] place0_g;       // unorm8, green of the pixel
+  reg [7:0] place0_b;       // unorm8, blue of the pixel
   reg place0_fwd_valid;     // an older fragment wrote this pixel
   reg [23:0] place0_fwd_z;  // depth from the youngest older fragment of this pixel
   reg place0_follows;       // same pixel as the fragment that left one cycle earlier
   wire place0_after_w = place0_follows && wr_valid && wr_z_en;
   reg [18:0] place1_addr;   // line * 2^10 + column
-  reg [23:0] place1_z;      // unorm24
-  reg [7:0] place1_r;       // unorm8
-  reg [7:0] place1_g;       // unorm8
-  reg [7:0] place1_b;       // unorm8
+  reg [23:0] place1_z;      // unorm24, depth of the pixel
+  reg [7:0] place1_r;       // unorm8, red of the pixel
+  reg [7:0] place1_g;       // unorm8, green of the pixel
+  reg [7:0] place1_b;       // unorm8, blue of the pixel
   reg place1_fwd_valid;     // an older fragment wrote this pixel
   reg [23:0] place1_fwd_z;  // depth from the youngest older fragment of this pixel
   reg place1_follows;       // same pixel as the fragment that left one cycle earlier
   wire place1_after_w = place1_follows && wr_valid && wr_z_en;
   reg [18:0] place2_addr;   // line * 2^10 + column
-  reg [23:0] place2_z;      // unorm24
-  reg [7:0] place2_r;       // unorm8
-  reg [7:0] place2_g;       // unorm8
-  reg [7:0] place2_b;       // unorm8
+  reg [23:0] place2_z;      // unorm24, depth of the pixel
+  reg [7:0] place2_r;       // unorm8, red of the pixel
+  reg [7:0] place2_g;       // unorm8, green of the pixel
+  reg [7:0] place2_b;       // unorm8, blue of the pixel
   reg place2_fwd_valid;     // an older fragment wrote this pixel
   reg [23:0] place2_fwd_z;  // depth from the youngest older fragment of this pixel
   reg place2_follows;       // same pixel as the fragment that left one cycle earlier
   wire place2_after_w = place2_follows && wr_valid && wr_z_en;
   reg [18:0] place3_addr;   // line * 2^10 + column
-  reg [23:0] place3_z;      // unorm24
-  reg [7:0] place3_r;       // unorm8
-  reg [7:0] place3_g;       // unorm8
-  reg [7:0] place3_b;       // unorm8
+  reg [23:0] place3_z;      // unorm24, depth of the pixel
+  reg [7:0] place3_r;       // unorm8, red of the pixel
+  reg [7:0] place3_g;       // unorm8, green of the pixel
+  reg [7:0] place3_b;       // unorm8, blue of the pixel
   reg place3_fwd_valid;     // an older fragment wrote this pixel
   reg [23:0] place3_fwd_z;  // depth from the youngest older fragment of this pixel
 

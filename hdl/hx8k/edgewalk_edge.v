@@ -29,17 +29,17 @@ module edgewalk_edge (
   input  wire [21:0] prim_major_dist,   // distance from the edge to that column, 1/M column
   input  wire [14:0] prim_major_q,      // signed, whole columns a line, step of c
   input  wire [21:0] prim_major_f,      // 1/M column a line
-  input  wire [21:0] prim_major_m,      // modulus of r and f: the edge's height, 1/P line
+  input  wire [21:0] prim_major_m,      // modulus of dist and f: the edge's height; a line has 2^8 units
   input  wire [14:0] prim_minor1_c,     // signed, first column on or right of the edge
   input  wire [21:0] prim_minor1_dist,  // distance from the edge to that column, 1/M column
   input  wire [14:0] prim_minor1_q,     // signed, whole columns a line, step of c
   input  wire [21:0] prim_minor1_f,     // 1/M column a line
-  input  wire [21:0] prim_minor1_m,     // modulus of r and f: the edge's height, 1/P line
+  input  wire [21:0] prim_minor1_m,     // modulus of dist and f: the edge's height; a line has 2^8 units
   input  wire [14:0] prim_minor2_c,     // signed, first column on or right of the edge
   input  wire [21:0] prim_minor2_dist,  // distance from the edge to that column, 1/M column
   input  wire [14:0] prim_minor2_q,     // signed, whole columns a line, step of c
   input  wire [21:0] prim_minor2_f,     // 1/M column a line
-  input  wire [21:0] prim_minor2_m,     // modulus of r and f: the edge's height, 1/P line
+  input  wire [21:0] prim_minor2_m,     // modulus of dist and f: the edge's height; a line has 2^8 units
   input  wire [37:0] prim_z_start,      // UQ24.14 LSB, modular, value at the first pixel of the first line
   input  wire [37:0] prim_z_d0,         // UQ24.14 LSB, modular, step to the next line, edge without carry
   input  wire [37:0] prim_z_d1,         // UQ24.14 LSB, modular, step to the next line, edge with carry
@@ -65,16 +65,16 @@ module edgewalk_edge (
   output wire [14:0] line_cmaj,         // signed, first column on or right of the major edge
   output wire [14:0] line_cmin,         // signed, first column on or right of the minor edge
   output reg         line_major_right,  // the major edge is the right one
-  output reg  [37:0] line_z,            // UQ24.14 LSB, modular
-  output reg  [21:0] line_r,            // UQ8.14 LSB, modular
-  output reg  [21:0] line_g,            // UQ8.14 LSB, modular
-  output reg  [21:0] line_b,            // UQ8.14 LSB, modular
+  output reg  [37:0] line_z,            // UQ24.14 LSB, modular, depth at the first pixel of the line
+  output reg  [21:0] line_r,            // UQ8.14 LSB, modular, red at the first pixel of the line
+  output reg  [21:0] line_g,            // UQ8.14 LSB, modular, green at the first pixel of the line
+  output reg  [21:0] line_b,            // UQ8.14 LSB, modular, blue at the first pixel of the line
   output reg         line_fresh,        // first line of the triangle
   output wire        line_fence,        // older fragments of the same pixel may be in flight
-  output wire [37:0] inc_z,             // UQ24.14 LSB, modular
-  output wire [21:0] inc_r,             // UQ8.14 LSB, modular
-  output wire [21:0] inc_g,             // UQ8.14 LSB, modular
-  output wire [21:0] inc_b              // UQ8.14 LSB, modular
+  output wire [37:0] inc_z,             // UQ24.14 LSB, modular, increment of depth a pixel along the span; stays until the next prim fires
+  output wire [21:0] inc_r,             // UQ8.14 LSB, modular, increment of red a pixel along the span; stays until the next prim fires
+  output wire [21:0] inc_g,             // UQ8.14 LSB, modular, increment of green a pixel along the span; stays until the next prim fires
+  output wire [21:0] inc_b              // UQ8.14 LSB, modular, increment of blue a pixel along the span; stays until the next prim fires
 );
 
   // A triangle is taken when it is walked and PIXEL has its increments; until then EDGE reads SETUP's registers.
@@ -193,7 +193,7 @@ module edgewalk_edge (
   reg [14:0] minor_c;                     // signed, first column on or right of the edge
   reg [14:0] minor_q;                     // signed, whole columns a line, step of c
   reg [21:0] minor_f;                     // 1/M column a line
-  reg [21:0] minor_m;                     // modulus of r and f: the edge's height, 1/P line
+  reg [21:0] minor_m;                     // modulus of dist and f: the edge's height; a line has 2^8 units
   reg [22:0] minor_rest;                  // R - f, signed: below 0 the step carries
   wire [22:0] minor_less = minor_rest - {1'b0, minor_f};
   wire [22:0] minor_back = minor_rest[22] ? {1'b0, minor_m} : 23'd0;

@@ -19,24 +19,24 @@ module edgewalk (
   input  wire        rst,
 
   input  wire        tri_valid,
-  input  wire [21:0] tri_x0,       // Q14.8 px
-  input  wire [21:0] tri_y0,       // Q14.8 px
-  input  wire [27:0] tri_z0,       // UQ24.4 LSB
-  input  wire [11:0] tri_r0,       // UQ8.4 LSB
-  input  wire [11:0] tri_g0,       // UQ8.4 LSB
-  input  wire [11:0] tri_b0,       // UQ8.4 LSB
-  input  wire [21:0] tri_x1,       // Q14.8 px
-  input  wire [21:0] tri_y1,       // Q14.8 px
-  input  wire [27:0] tri_z1,       // UQ24.4 LSB
-  input  wire [11:0] tri_r1,       // UQ8.4 LSB
-  input  wire [11:0] tri_g1,       // UQ8.4 LSB
-  input  wire [11:0] tri_b1,       // UQ8.4 LSB
-  input  wire [21:0] tri_x2,       // Q14.8 px
-  input  wire [21:0] tri_y2,       // Q14.8 px
-  input  wire [27:0] tri_z2,       // UQ24.4 LSB
-  input  wire [11:0] tri_r2,       // UQ8.4 LSB
-  input  wire [11:0] tri_g2,       // UQ8.4 LSB
-  input  wire [11:0] tri_b2,       // UQ8.4 LSB
+  input  wire [21:0] tri_x0,       // Q14.8 px, x of vertex 0
+  input  wire [21:0] tri_y0,       // Q14.8 px, y of vertex 0
+  input  wire [27:0] tri_z0,       // UQ24.4 LSB, depth of vertex 0
+  input  wire [11:0] tri_r0,       // UQ8.4 LSB, red of vertex 0
+  input  wire [11:0] tri_g0,       // UQ8.4 LSB, green of vertex 0
+  input  wire [11:0] tri_b0,       // UQ8.4 LSB, blue of vertex 0
+  input  wire [21:0] tri_x1,       // Q14.8 px, x of vertex 1
+  input  wire [21:0] tri_y1,       // Q14.8 px, y of vertex 1
+  input  wire [27:0] tri_z1,       // UQ24.4 LSB, depth of vertex 1
+  input  wire [11:0] tri_r1,       // UQ8.4 LSB, red of vertex 1
+  input  wire [11:0] tri_g1,       // UQ8.4 LSB, green of vertex 1
+  input  wire [11:0] tri_b1,       // UQ8.4 LSB, blue of vertex 1
+  input  wire [21:0] tri_x2,       // Q14.8 px, x of vertex 2
+  input  wire [21:0] tri_y2,       // Q14.8 px, y of vertex 2
+  input  wire [27:0] tri_z2,       // UQ24.4 LSB, depth of vertex 2
+  input  wire [11:0] tri_r2,       // UQ8.4 LSB, red of vertex 2
+  input  wire [11:0] tri_g2,       // UQ8.4 LSB, green of vertex 2
+  input  wire [11:0] tri_b2,       // UQ8.4 LSB, blue of vertex 2
   input  wire  [1:0] tri_kind,     // 0 triangle, 1 edges, 2 edges and plane, 3 line
   input  wire  [2:0] tri_sides,    // of kinds 1 and 2: sides 0-1, 1-2 and 2-0 are edges, a bit each
   input  wire  [9:0] tri_start_x,  // column of the pixel at which values start
@@ -55,11 +55,11 @@ module edgewalk (
   output wire        data_ready,
   output wire        wr_valid,
   output wire [18:0] wr_addr,      // line * 2^10 + column
-  output wire [23:0] wr_z,         // unorm24
+  output wire [23:0] wr_z,         // unorm24, depth of the pixel
   output wire        wr_z_en,      // 1: write the depth as well
-  output wire  [7:0] wr_r,         // unorm8
-  output wire  [7:0] wr_g,         // unorm8
-  output wire  [7:0] wr_b,         // unorm8
+  output wire  [7:0] wr_r,         // unorm8, red of the pixel
+  output wire  [7:0] wr_g,         // unorm8, green of the pixel
+  output wire  [7:0] wr_b,         // unorm8, blue of the pixel
   output wire  [3:0] activity,     // cause of the cycle
   output wire        idle          // no triangle, fragment or write is inside
 );

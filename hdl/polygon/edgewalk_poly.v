@@ -38,17 +38,17 @@ module edgewalk_poly (
   input  wire [21:0] prim_major_dist,   // distance from the edge to that column, 1/M column
   input  wire [14:0] prim_major_q,      // signed, whole columns a line, step of c
   input  wire [21:0] prim_major_f,      // 1/M column a line
-  input  wire [21:0] prim_major_m,      // modulus of r and f: the edge's height, 1/P line
+  input  wire [21:0] prim_major_m,      // modulus of dist and f: the edge's height; a line has 2^8 units
   input  wire [14:0] prim_minor1_c,     // signed, first column on or right of the edge
   input  wire [21:0] prim_minor1_dist,  // distance from the edge to that column, 1/M column
   input  wire [14:0] prim_minor1_q,     // signed, whole columns a line, step of c
   input  wire [21:0] prim_minor1_f,     // 1/M column a line
-  input  wire [21:0] prim_minor1_m,     // modulus of r and f: the edge's height, 1/P line
+  input  wire [21:0] prim_minor1_m,     // modulus of dist and f: the edge's height; a line has 2^8 units
   input  wire [14:0] prim_minor2_c,     // signed, first column on or right of the edge
   input  wire [21:0] prim_minor2_dist,  // distance from the edge to that column, 1/M column
   input  wire [14:0] prim_minor2_q,     // signed, whole columns a line, step of c
   input  wire [21:0] prim_minor2_f,     // 1/M column a line
-  input  wire [21:0] prim_minor2_m,     // modulus of r and f: the edge's height, 1/P line
+  input  wire [21:0] prim_minor2_m,     // modulus of dist and f: the edge's height; a line has 2^8 units
   input  wire [37:0] prim_z_start,      // UQ24.14 LSB, modular, value at pixel (start_x, start_y)
   input  wire [37:0] prim_z_d0,         // UQ24.14 LSB, modular, step to the next line
   input  wire [37:0] prim_z_g,          // UQ24.14 LSB, modular, step to the next pixel to the right
@@ -70,16 +70,16 @@ module edgewalk_poly (
   output reg  [14:0] line_cmaj,         // signed, first column of the span
   output reg  [14:0] line_cmin,         // signed, column behind the span
   output wire        line_major_right,  // the major edge is the right one
-  output reg  [37:0] line_z,            // UQ24.14 LSB, modular
-  output reg  [21:0] line_r,            // UQ8.14 LSB, modular
-  output reg  [21:0] line_g,            // UQ8.14 LSB, modular
-  output reg  [21:0] line_b,            // UQ8.14 LSB, modular
+  output reg  [37:0] line_z,            // UQ24.14 LSB, modular, depth at the first pixel of the line
+  output reg  [21:0] line_r,            // UQ8.14 LSB, modular, red at the first pixel of the line
+  output reg  [21:0] line_g,            // UQ8.14 LSB, modular, green at the first pixel of the line
+  output reg  [21:0] line_b,            // UQ8.14 LSB, modular, blue at the first pixel of the line
   output reg         line_fresh,        // first span of the polygon
   output wire        line_fence,        // older fragments of the same pixel may be in flight
-  output reg  [37:0] inc_z,             // UQ24.14 LSB, modular
-  output reg  [21:0] inc_r,             // UQ8.14 LSB, modular
-  output reg  [21:0] inc_g,             // UQ8.14 LSB, modular
-  output reg  [21:0] inc_b,             // UQ8.14 LSB, modular
+  output reg  [37:0] inc_z,             // UQ24.14 LSB, modular, increment of depth a pixel along the span; stays until the next prim with prim_ends fires
+  output reg  [21:0] inc_r,             // UQ8.14 LSB, modular, increment of red a pixel along the span; stays until the next prim with prim_ends fires
+  output reg  [21:0] inc_g,             // UQ8.14 LSB, modular, increment of green a pixel along the span; stays until the next prim with prim_ends fires
+  output reg  [21:0] inc_b,             // UQ8.14 LSB, modular, increment of blue a pixel along the span; stays until the next prim with prim_ends fires
   output wire        walking,           // a polygon is walked, or its last span waits
   output wire        refused            // a polygon ends here that has more edges than the table: nothing of it is drawn
 );

@@ -29,17 +29,17 @@ module edgewalk_edge (
   input  wire [11:0] prim_major_dist,   // distance from the edge to that column, 1/M column
   input  wire  [9:0] prim_major_q,      // signed, whole columns a line, step of c
   input  wire [11:0] prim_major_f,      // 1/M column a line
-  input  wire [11:0] prim_major_m,      // modulus of r and f: the edge's height, 1/P line
+  input  wire [11:0] prim_major_m,      // modulus of dist and f: the edge's height; a line has 2^3 units
   input  wire  [9:0] prim_minor1_c,     // signed, first column on or right of the edge
   input  wire [11:0] prim_minor1_dist,  // distance from the edge to that column, 1/M column
   input  wire  [9:0] prim_minor1_q,     // signed, whole columns a line, step of c
   input  wire [11:0] prim_minor1_f,     // 1/M column a line
-  input  wire [11:0] prim_minor1_m,     // modulus of r and f: the edge's height, 1/P line
+  input  wire [11:0] prim_minor1_m,     // modulus of dist and f: the edge's height; a line has 2^3 units
   input  wire  [9:0] prim_minor2_c,     // signed, first column on or right of the edge
   input  wire [11:0] prim_minor2_dist,  // distance from the edge to that column, 1/M column
   input  wire  [9:0] prim_minor2_q,     // signed, whole columns a line, step of c
   input  wire [11:0] prim_minor2_f,     // 1/M column a line
-  input  wire [11:0] prim_minor2_m,     // modulus of r and f: the edge's height, 1/P line
+  input  wire [11:0] prim_minor2_m,     // modulus of dist and f: the edge's height; a line has 2^3 units
   input  wire [25:0] prim_z_start,      // UQ16.10 LSB, modular, value at the first pixel of the first line
   input  wire [25:0] prim_z_d0,         // UQ16.10 LSB, modular, step to the next line, edge without carry
   input  wire [25:0] prim_z_d1,         // UQ16.10 LSB, modular, step to the next line, edge with carry
@@ -65,16 +65,16 @@ module edgewalk_edge (
   output wire  [9:0] line_cmaj,         // signed, first column on or right of the major edge
   output wire  [9:0] line_cmin,         // signed, first column on or right of the minor edge
   output reg         line_major_right,  // the major edge is the right one
-  output reg  [25:0] line_z,            // UQ16.10 LSB, modular
-  output reg  [14:0] line_r,            // UQ5.10 LSB, modular
-  output reg  [14:0] line_g,            // UQ5.10 LSB, modular
-  output reg  [14:0] line_b,            // UQ5.10 LSB, modular
+  output reg  [25:0] line_z,            // UQ16.10 LSB, modular, depth at the first pixel of the line
+  output reg  [14:0] line_r,            // UQ5.10 LSB, modular, red at the first pixel of the line
+  output reg  [14:0] line_g,            // UQ5.10 LSB, modular, green at the first pixel of the line
+  output reg  [14:0] line_b,            // UQ5.10 LSB, modular, blue at the first pixel of the line
   output reg         line_fresh,        // first line of the triangle
   output wire        line_fence,        // older fragments of the same pixel may be in flight
-  output reg  [25:0] inc_z,             // UQ16.10 LSB, modular
-  output reg  [14:0] inc_r,             // UQ5.10 LSB, modular
-  output reg  [14:0] inc_g,             // UQ5.10 LSB, modular
-  output reg  [14:0] inc_b              // UQ5.10 LSB, modular
+  output reg  [25:0] inc_z,             // UQ16.10 LSB, modular, increment of depth a pixel along the span; stays until the next prim fires
+  output reg  [14:0] inc_r,             // UQ5.10 LSB, modular, increment of red a pixel along the span; stays until the next prim fires
+  output reg  [14:0] inc_g,             // UQ5.10 LSB, modular, increment of green a pixel along the span; stays until the next prim fires
+  output reg  [14:0] inc_b              // UQ5.10 LSB, modular, increment of blue a pixel along the span; stays until the next prim fires
 );
 
   // A triangle is taken when the one before is walked and PIXEL has its increments.
@@ -156,7 +156,7 @@ module edgewalk_edge (
   reg [9:0] major_c;      // signed, first column on or right of the edge
   reg [9:0] major_q;      // signed, whole columns a line, step of c
   reg [11:0] major_f;     // 1/M column a line
-  reg [11:0] major_m;     // modulus of r and f: the edge's height, 1/P line
+  reg [11:0] major_m;     // modulus of dist and f: the edge's height; a line has 2^3 units
   reg [12:0] major_rest;  // R - f, signed: below 0 the step carries
   wire [12:0] major_less = major_rest - {1'b0, major_f};
   wire [12:0] major_back = major_rest[12] ? {1'b0, major_m} : 13'd0;
@@ -191,13 +191,13 @@ module edgewalk_edge (
   reg [9:0] second_c;      // signed, first column on or right of the edge
   reg [9:0] second_q;      // signed, whole columns a line, step of c
   reg [11:0] second_f;     // 1/M column a line
-  reg [11:0] second_m;     // modulus of r and f: the edge's height, 1/P line
+  reg [11:0] second_m;     // modulus of dist and f: the edge's height; a line has 2^3 units
   reg [12:0] second_rest;  // R - f, signed: below 0 the step carries
   wire [12:0] minor2_rest = {1'b0, prim_minor2_dist} - {1'b0, prim_minor2_f};
   reg [9:0] minor_c;       // signed, first column on or right of the edge
   reg [9:0] minor_q;       // signed, whole columns a line, step of c
   reg [11:0] minor_f;      // 1/M column a line
-  reg [11:0] minor_m;      // modulus of r and f: the edge's height, 1/P line
+  reg [11:0] minor_m;      // modulus of dist and f: the edge's height; a line has 2^3 units
   reg [12:0] minor_rest;   // R - f, signed: below 0 the step carries
   wire [12:0] minor_less = minor_rest - {1'b0, minor_f};
   wire [12:0] minor_back = minor_rest[12] ? {1'b0, minor_m} : 13'd0;

@@ -25,28 +25,28 @@ module edgewalk_pixel (
   input  wire  [7:0] span_y,         // line
   input  wire  [9:0] span_count,     // pixels of the span, at least 1
   input  wire        span_leftward,  // 1: the span runs towards smaller columns
-  input  wire [25:0] span_z,         // UQ16.10 LSB, modular
-  input  wire [14:0] span_r,         // UQ5.10 LSB, modular
-  input  wire [14:0] span_g,         // UQ5.10 LSB, modular
-  input  wire [14:0] span_b,         // UQ5.10 LSB, modular
+  input  wire [25:0] span_z,         // UQ16.10 LSB, modular, depth at the first pixel of the span
+  input  wire [14:0] span_r,         // UQ5.10 LSB, modular, red at the first pixel of the span
+  input  wire [14:0] span_g,         // UQ5.10 LSB, modular, green at the first pixel of the span
+  input  wire [14:0] span_b,         // UQ5.10 LSB, modular, blue at the first pixel of the span
   input  wire        span_fresh,     // first span of the triangle; increments are new
   input  wire        span_fence,     // older fragments of the same pixel may be in flight
-  input  wire [25:0] inc_z,          // UQ16.10 LSB, modular
-  input  wire [14:0] inc_r,          // UQ5.10 LSB, modular
-  input  wire [14:0] inc_g,          // UQ5.10 LSB, modular
-  input  wire [14:0] inc_b,          // UQ5.10 LSB, modular
+  input  wire [25:0] inc_z,          // UQ16.10 LSB, modular, increment of depth a pixel along the span; counts with span_fresh
+  input  wire [14:0] inc_r,          // UQ5.10 LSB, modular, increment of red a pixel along the span; counts with span_fresh
+  input  wire [14:0] inc_g,          // UQ5.10 LSB, modular, increment of green a pixel along the span; counts with span_fresh
+  input  wire [14:0] inc_b,          // UQ5.10 LSB, modular, increment of blue a pixel along the span; counts with span_fresh
   input  wire        frag_ready,
 
   output wire        span_ready,
   output reg         frag_valid,
   output reg  [15:0] frag_addr,      // line * 2^8 + column
-  output reg  [15:0] frag_z,         // unorm16
-  output reg   [4:0] frag_r,         // unorm5
-  output reg   [4:0] frag_g,         // unorm5
-  output reg   [4:0] frag_b,         // unorm5
+  output reg  [15:0] frag_z,         // unorm16, depth of the pixel
+  output reg   [4:0] frag_r,         // unorm5, red of the pixel
+  output reg   [4:0] frag_g,         // unorm5, green of the pixel
+  output reg   [4:0] frag_b,         // unorm5, blue of the pixel
   output reg         frag_fence,     // older fragments of the same pixel may be in flight
   output reg         active,         // a span is in progress
-  output wire        visible,        // the current pixel is on the screen
+  output wire        visible,        // the current pixel is on the screen, while active is 1
   output wire        advance,        // the output is free or taken: the unit advances
   output wire        occupied        // an output stage holds a fragment
 );

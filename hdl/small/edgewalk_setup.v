@@ -22,24 +22,24 @@ module edgewalk_setup (
   input  wire        rst,
 
   input  wire        tri_valid,
-  input  wire [11:0] tri_x0,            // Q9.3 px
-  input  wire [11:0] tri_y0,            // Q9.3 px
-  input  wire [15:0] tri_z0,            // UQ16.0 LSB
-  input  wire  [4:0] tri_r0,            // UQ5.0 LSB
-  input  wire  [4:0] tri_g0,            // UQ5.0 LSB
-  input  wire  [4:0] tri_b0,            // UQ5.0 LSB
-  input  wire [11:0] tri_x1,            // Q9.3 px
-  input  wire [11:0] tri_y1,            // Q9.3 px
-  input  wire [15:0] tri_z1,            // UQ16.0 LSB
-  input  wire  [4:0] tri_r1,            // UQ5.0 LSB
-  input  wire  [4:0] tri_g1,            // UQ5.0 LSB
-  input  wire  [4:0] tri_b1,            // UQ5.0 LSB
-  input  wire [11:0] tri_x2,            // Q9.3 px
-  input  wire [11:0] tri_y2,            // Q9.3 px
-  input  wire [15:0] tri_z2,            // UQ16.0 LSB
-  input  wire  [4:0] tri_r2,            // UQ5.0 LSB
-  input  wire  [4:0] tri_g2,            // UQ5.0 LSB
-  input  wire  [4:0] tri_b2,            // UQ5.0 LSB
+  input  wire [11:0] tri_x0,            // Q9.3 px, x of vertex 0
+  input  wire [11:0] tri_y0,            // Q9.3 px, y of vertex 0
+  input  wire [15:0] tri_z0,            // UQ16.0 LSB, depth of vertex 0
+  input  wire  [4:0] tri_r0,            // UQ5.0 LSB, red of vertex 0
+  input  wire  [4:0] tri_g0,            // UQ5.0 LSB, green of vertex 0
+  input  wire  [4:0] tri_b0,            // UQ5.0 LSB, blue of vertex 0
+  input  wire [11:0] tri_x1,            // Q9.3 px, x of vertex 1
+  input  wire [11:0] tri_y1,            // Q9.3 px, y of vertex 1
+  input  wire [15:0] tri_z1,            // UQ16.0 LSB, depth of vertex 1
+  input  wire  [4:0] tri_r1,            // UQ5.0 LSB, red of vertex 1
+  input  wire  [4:0] tri_g1,            // UQ5.0 LSB, green of vertex 1
+  input  wire  [4:0] tri_b1,            // UQ5.0 LSB, blue of vertex 1
+  input  wire [11:0] tri_x2,            // Q9.3 px, x of vertex 2
+  input  wire [11:0] tri_y2,            // Q9.3 px, y of vertex 2
+  input  wire [15:0] tri_z2,            // UQ16.0 LSB, depth of vertex 2
+  input  wire  [4:0] tri_r2,            // UQ5.0 LSB, red of vertex 2
+  input  wire  [4:0] tri_g2,            // UQ5.0 LSB, green of vertex 2
+  input  wire  [4:0] tri_b2,            // UQ5.0 LSB, blue of vertex 2
   input  wire        prim_ready,
 
   output wire        tri_ready,
@@ -52,17 +52,17 @@ module edgewalk_setup (
   output reg  [11:0] prim_major_dist,   // distance from the edge to that column, 1/M column
   output reg   [9:0] prim_major_q,      // signed, whole columns a line, step of c
   output reg  [11:0] prim_major_f,      // 1/M column a line
-  output wire [11:0] prim_major_m,      // modulus of r and f: the edge's height, 1/P line
+  output wire [11:0] prim_major_m,      // modulus of dist and f: the edge's height; a line has 2^3 units
   output reg   [9:0] prim_minor1_c,     // signed, first column on or right of the edge
   output reg  [11:0] prim_minor1_dist,  // distance from the edge to that column, 1/M column
   output reg   [9:0] prim_minor1_q,     // signed, whole columns a line, step of c
   output reg  [11:0] prim_minor1_f,     // 1/M column a line
-  output wire [11:0] prim_minor1_m,     // modulus of r and f: the edge's height, 1/P line
+  output wire [11:0] prim_minor1_m,     // modulus of dist and f: the edge's height; a line has 2^3 units
   output reg   [9:0] prim_minor2_c,     // signed, first column on or right of the edge
   output reg  [11:0] prim_minor2_dist,  // distance from the edge to that column, 1/M column
   output reg   [9:0] prim_minor2_q,     // signed, whole columns a line, step of c
   output reg  [11:0] prim_minor2_f,     // 1/M column a line
-  output wire [11:0] prim_minor2_m,     // modulus of r and f: the edge's height, 1/P line
+  output wire [11:0] prim_minor2_m,     // modulus of dist and f: the edge's height; a line has 2^3 units
   output reg  [25:0] prim_z_start,      // UQ16.10 LSB, modular, value at the first pixel of the first line
   output reg  [25:0] prim_z_d0,         // UQ16.10 LSB, modular, step to the next line, edge without carry
   output reg  [25:0] prim_z_d1,         // UQ16.10 LSB, modular, step to the next line, edge with carry

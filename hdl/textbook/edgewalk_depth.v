@@ -25,10 +25,10 @@ module edgewalk_depth (
   input  wire        depth_write,  // write depths of fragments that pass
   input  wire        frag_valid,
   input  wire [18:0] frag_addr,    // line * 2^10 + column
-  input  wire [15:0] frag_z,       // unorm16
-  input  wire  [7:0] frag_r,       // unorm8
-  input  wire  [7:0] frag_g,       // unorm8
-  input  wire  [7:0] frag_b,       // unorm8
+  input  wire [15:0] frag_z,       // unorm16, depth of the pixel
+  input  wire  [7:0] frag_r,       // unorm8, red of the pixel
+  input  wire  [7:0] frag_g,       // unorm8, green of the pixel
+  input  wire  [7:0] frag_b,       // unorm8, blue of the pixel
   input  wire        frag_fence,   // older fragments of the same pixel may be in flight
   input  wire        rd_ready,
   input  wire        data_valid,
@@ -41,12 +41,12 @@ module edgewalk_depth (
   output wire        data_ready,
   output reg         wr_valid,     // w holds a pixel to write
   output reg  [18:0] wr_addr,      // line * 2^10 + column
-  output reg  [15:0] wr_z,         // unorm16
+  output reg  [15:0] wr_z,         // unorm16, depth of the pixel
   output reg         wr_z_en,      // 1: write the depth as well
-  output reg   [7:0] wr_r,         // unorm8
-  output reg   [7:0] wr_g,         // unorm8
-  output reg   [7:0] wr_b,         // unorm8
-  output wire        hazard,       // the offered fragment waits for one in flight
+  output reg   [7:0] wr_r,         // unorm8, red of the pixel
+  output reg   [7:0] wr_g,         // unorm8, green of the pixel
+  output reg   [7:0] wr_b,         // unorm8, blue of the pixel
+  output wire        hazard,       // the offered fragment waits for one in flight, while frag_valid is 1
   output wire        full,         // the in-flight queue is full
   output wire        occupied      // a fragment is in flight
 );
@@ -54,25 +54,25 @@ module edgewalk_depth (
   // State: the queue of fragments that wait for their old depths, and the write register w.
   reg [2:0] count;         // fragments in flight
   reg [18:0] place0_addr;  // line * 2^10 + column
-  reg [15:0] place0_z;     // unorm16
-  reg [7:0] place0_r;      // unorm8
-  reg [7:0] place0_g;      // unorm8
-  reg [7:0] place0_b;      // unorm8
+  reg [15:0] place0_z;     // unorm16, depth of the pixel
+  reg [7:0] place0_r;      // unorm8, red of the pixel
+  reg [7:0] place0_g;      // unorm8, green of the pixel
+  reg [7:0] place0_b;      // unorm8, blue of the pixel
   reg [18:0] place1_addr;  // line * 2^10 + column
-  reg [15:0] place1_z;     // unorm16
-  reg [7:0] place1_r;      // unorm8
-  reg [7:0] place1_g;      // unorm8
-  reg [7:0] place1_b;      // unorm8
+  reg [15:0] place1_z;     // unorm16, depth of the pixel
+  reg [7:0] place1_r;      // unorm8, red of the pixel
+  reg [7:0] place1_g;      // unorm8, green of the pixel
+  reg [7:0] place1_b;      // unorm8, blue of the pixel
   reg [18:0] place2_addr;  // line * 2^10 + column
-  reg [15:0] place2_z;     // unorm16
-  reg [7:0] place2_r;      // unorm8
-  reg [7:0] place2_g;      // unorm8
-  reg [7:0] place2_b;      // unorm8
+  reg [15:0] place2_z;     // unorm16, depth of the pixel
+  reg [7:0] place2_r;      // unorm8, red of the pixel
+  reg [7:0] place2_g;      // unorm8, green of the pixel
+  reg [7:0] place2_b;      // unorm8, blue of the pixel
   reg [18:0] place3_addr;  // line * 2^10 + column
-  reg [15:0] place3_z;     // unorm16
-  reg [7:0] place3_r;      // unorm8
-  reg [7:0] place3_g;      // unorm8
-  reg [7:0] place3_b;      // unorm8
+  reg [15:0] place3_z;     // unorm16, depth of the pixel
+  reg [7:0] place3_r;      // unorm8, red of the pixel
+  reg [7:0] place3_g;      // unorm8, green of the pixel
+  reg [7:0] place3_b;      // unorm8, blue of the pixel
 
   // A fragment enters while the queue has room and no fragment in flight may change its depth.
   assign full = count[2];

@@ -66,16 +66,16 @@ module edgewalk_edge (
   output wire [14:0] line_cmaj,         // signed, first column on or right of the major edge
   output wire [14:0] line_cmin,         // signed, first column on or right of the minor edge
   output reg         line_major_right,  // the major edge is the right one
-  output reg  [29:0] line_z,            // UQ16.14 LSB, modular
-  output reg  [21:0] line_r,            // UQ8.14 LSB, modular
-  output reg  [21:0] line_g,            // UQ8.14 LSB, modular
-  output reg  [21:0] line_b,            // UQ8.14 LSB, modular
+  output reg  [29:0] line_z,            // UQ16.14 LSB, modular, depth at the first pixel of the line
+  output reg  [21:0] line_r,            // UQ8.14 LSB, modular, red at the first pixel of the line
+  output reg  [21:0] line_g,            // UQ8.14 LSB, modular, green at the first pixel of the line
+  output reg  [21:0] line_b,            // UQ8.14 LSB, modular, blue at the first pixel of the line
   output reg         line_fresh,        // first line of the triangle
   output reg         line_fence,        // older fragments of the same pixel may be in flight
-  output reg  [29:0] inc_z,             // UQ16.14 LSB, modular
-  output reg  [21:0] inc_r,             // UQ8.14 LSB, modular
-  output reg  [21:0] inc_g,             // UQ8.14 LSB, modular
-  output reg  [21:0] inc_b              // UQ8.14 LSB, modular
+  output reg  [29:0] inc_z,             // UQ16.14 LSB, modular, increment of depth a pixel along the span; stays until the next prim fires
+  output reg  [21:0] inc_r,             // UQ8.14 LSB, modular, increment of red a pixel along the span; stays until the next prim fires
+  output reg  [21:0] inc_g,             // UQ8.14 LSB, modular, increment of green a pixel along the span; stays until the next prim fires
+  output reg  [21:0] inc_b              // UQ8.14 LSB, modular, increment of blue a pixel along the span; stays until the next prim fires
 );
 
   // A triangle is taken when the one before is walked and PIXEL has its increments.

@@ -22,24 +22,24 @@ module edgewalk_setup (
   input  wire        rst,
 
   input  wire        tri_valid,
-  input  wire [13:0] tri_x0,            // Q14.0 px
-  input  wire [13:0] tri_y0,            // Q14.0 px
-  input  wire [15:0] tri_z0,            // UQ16.0 LSB
-  input  wire  [7:0] tri_r0,            // UQ8.0 LSB
-  input  wire  [7:0] tri_g0,            // UQ8.0 LSB
-  input  wire  [7:0] tri_b0,            // UQ8.0 LSB
-  input  wire [13:0] tri_x1,            // Q14.0 px
-  input  wire [13:0] tri_y1,            // Q14.0 px
-  input  wire [15:0] tri_z1,            // UQ16.0 LSB
-  input  wire  [7:0] tri_r1,            // UQ8.0 LSB
-  input  wire  [7:0] tri_g1,            // UQ8.0 LSB
-  input  wire  [7:0] tri_b1,            // UQ8.0 LSB
-  input  wire [13:0] tri_x2,            // Q14.0 px
-  input  wire [13:0] tri_y2,            // Q14.0 px
-  input  wire [15:0] tri_z2,            // UQ16.0 LSB
-  input  wire  [7:0] tri_r2,            // UQ8.0 LSB
-  input  wire  [7:0] tri_g2,            // UQ8.0 LSB
-  input  wire  [7:0] tri_b2,            // UQ8.0 LSB
+  input  wire [13:0] tri_x0,            // Q14.0 px, x of vertex 0
+  input  wire [13:0] tri_y0,            // Q14.0 px, y of vertex 0
+  input  wire [15:0] tri_z0,            // UQ16.0 LSB, depth of vertex 0
+  input  wire  [7:0] tri_r0,            // UQ8.0 LSB, red of vertex 0
+  input  wire  [7:0] tri_g0,            // UQ8.0 LSB, green of vertex 0
+  input  wire  [7:0] tri_b0,            // UQ8.0 LSB, blue of vertex 0
+  input  wire [13:0] tri_x1,            // Q14.0 px, x of vertex 1
+  input  wire [13:0] tri_y1,            // Q14.0 px, y of vertex 1
+  input  wire [15:0] tri_z1,            // UQ16.0 LSB, depth of vertex 1
+  input  wire  [7:0] tri_r1,            // UQ8.0 LSB, red of vertex 1
+  input  wire  [7:0] tri_g1,            // UQ8.0 LSB, green of vertex 1
+  input  wire  [7:0] tri_b1,            // UQ8.0 LSB, blue of vertex 1
+  input  wire [13:0] tri_x2,            // Q14.0 px, x of vertex 2
+  input  wire [13:0] tri_y2,            // Q14.0 px, y of vertex 2
+  input  wire [15:0] tri_z2,            // UQ16.0 LSB, depth of vertex 2
+  input  wire  [7:0] tri_r2,            // UQ8.0 LSB, red of vertex 2
+  input  wire  [7:0] tri_g2,            // UQ8.0 LSB, green of vertex 2
+  input  wire  [7:0] tri_b2,            // UQ8.0 LSB, blue of vertex 2
   input  wire        prim_ready,
 
   output wire        tri_ready,

@@ -23,10 +23,10 @@ module edgewalk_span (
   input  wire [14:0] line_cmaj,         // signed, first column on or right of the major edge
   input  wire [14:0] line_cmin,         // signed, first column on or right of the minor edge
   input  wire        line_major_right,  // the major edge is the right one
-  input  wire [29:0] line_z,            // UQ16.14 LSB, modular
-  input  wire [21:0] line_r,            // UQ8.14 LSB, modular
-  input  wire [21:0] line_g,            // UQ8.14 LSB, modular
-  input  wire [21:0] line_b,            // UQ8.14 LSB, modular
+  input  wire [29:0] line_z,            // UQ16.14 LSB, modular, depth at the first pixel of the line
+  input  wire [21:0] line_r,            // UQ8.14 LSB, modular, red at the first pixel of the line
+  input  wire [21:0] line_g,            // UQ8.14 LSB, modular, green at the first pixel of the line
+  input  wire [21:0] line_b,            // UQ8.14 LSB, modular, blue at the first pixel of the line
   input  wire        line_fresh,        // first line of the triangle
   input  wire        line_fence,        // older fragments of the same pixel may be in flight
   input  wire        span_ready,
@@ -37,10 +37,10 @@ module edgewalk_span (
   output wire  [8:0] span_y,            // line
   output wire [14:0] span_count,        // pixels of the span, at least 1
   output wire        span_leftward,     // 1: the span runs towards smaller columns
-  output wire [29:0] span_z,            // UQ16.14 LSB, modular
-  output wire [21:0] span_r,            // UQ8.14 LSB, modular
-  output wire [21:0] span_g,            // UQ8.14 LSB, modular
-  output wire [21:0] span_b,            // UQ8.14 LSB, modular
+  output wire [29:0] span_z,            // UQ16.14 LSB, modular, depth at the first pixel of the span
+  output wire [21:0] span_r,            // UQ8.14 LSB, modular, red at the first pixel of the span
+  output wire [21:0] span_g,            // UQ8.14 LSB, modular, green at the first pixel of the span
+  output wire [21:0] span_b,            // UQ8.14 LSB, modular, blue at the first pixel of the span
   output wire        span_fresh,        // first span of the triangle; increments are new
   output wire        span_fence,        // older fragments of the same pixel may be in flight
   output wire        fresh_queued,      // the first span of a triangle is queued, or may come of the line held
@@ -60,10 +60,10 @@ module edgewalk_span (
   wire take = line_valid && line_ready;
   wire moves = line_held && queue_in_ready;   // the line held is queued or dropped
   reg [8:0] held_y;                           // line
-  reg [29:0] held_z;                          // UQ16.14 LSB, modular
-  reg [21:0] held_r;                          // UQ8.14 LSB, modular
-  reg [21:0] held_g;                          // UQ8.14 LSB, modular
-  reg [21:0] held_b;                          // UQ8.14 LSB, modular
+  reg [29:0] held_z;                          // UQ16.14 LSB, modular, depth at the first pixel of the span
+  reg [21:0] held_r;                          // UQ8.14 LSB, modular, red at the first pixel of the span
+  reg [21:0] held_g;                          // UQ8.14 LSB, modular, green at the first pixel of the span
+  reg [21:0] held_b;                          // UQ8.14 LSB, modular, blue at the first pixel of the span
   reg held_fresh;                             // first span of the triangle; increments are new
   reg held_fence;                             // older fragments of the same pixel may be in flight
   reg [14:0] held_first;                      // signed, first column

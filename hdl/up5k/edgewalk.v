@@ -33,11 +33,11 @@ module edgewalk (
   output wire        data_ready,
   output wire        wr_valid,
   output wire [14:0] wr_addr,      // line * 2^8 + column
-  output wire [15:0] wr_z,         // unorm16
+  output wire [15:0] wr_z,         // unorm16, depth of the pixel
   output wire        wr_z_en,      // 1: write the depth as well
-  output wire  [4:0] wr_r,         // unorm5
-  output wire  [4:0] wr_g,         // unorm5
-  output wire  [4:0] wr_b,         // unorm5
+  output wire  [4:0] wr_r,         // unorm5, red of the pixel
+  output wire  [4:0] wr_g,         // unorm5, green of the pixel
+  output wire  [4:0] wr_b,         // unorm5, blue of the pixel
   output wire  [3:0] activity,     // cause of the cycle
   output wire        idle          // no triangle, fragment or write is inside
 );

@@ -32,17 +32,17 @@ module edgewalk_setup (
   output reg  [11:0] prim_major_dist,   // distance from the edge to that column, 1/M column
   output reg   [9:0] prim_major_q,      // signed, whole columns a line, step of c
   output reg  [11:0] prim_major_f,      // 1/M column a line
-  output reg  [11:0] prim_major_m,      // modulus of r and f: the edge's height, 1/P line
+  output reg  [11:0] prim_major_m,      // modulus of dist and f: the edge's height; a line has 2^3 units
   output reg   [9:0] prim_minor1_c,     // signed, first column on or right of the edge
   output reg  [11:0] prim_minor1_dist,  // distance from the edge to that column, 1/M column
   output reg   [9:0] prim_minor1_q,     // signed, whole columns a line, step of c
   output reg  [11:0] prim_minor1_f,     // 1/M column a line
-  output reg  [11:0] prim_minor1_m,     // modulus of r and f: the edge's height, 1/P line
+  output reg  [11:0] prim_minor1_m,     // modulus of dist and f: the edge's height; a line has 2^3 units
   output reg   [9:0] prim_minor2_c,     // signed, first column on or right of the edge
   output reg  [11:0] prim_minor2_dist,  // distance from the edge to that column, 1/M column
   output reg   [9:0] prim_minor2_q,     // signed, whole columns a line, step of c
   output reg  [11:0] prim_minor2_f,     // 1/M column a line
-  output reg  [11:0] prim_minor2_m,     // modulus of r and f: the edge's height, 1/P line
+  output reg  [11:0] prim_minor2_m,     // modulus of dist and f: the edge's height; a line has 2^3 units
   output reg  [25:0] prim_z_start,      // UQ16.10 LSB, modular, value at the first pixel of the first line
   output reg  [25:0] prim_z_d0,         // UQ16.10 LSB, modular, step to the next line, edge without carry
   output reg  [25:0] prim_z_d1,         // UQ16.10 LSB, modular, step to the next line, edge with carry

@@ -20,10 +20,10 @@ module edgewalk_span_fifo (
   input  wire  [6:0] in_y,          // line
   input  wire  [9:0] in_count,      // pixels of the span, at least 1
   input  wire        in_leftward,   // 1: the span runs towards smaller columns
-  input  wire [25:0] in_z,          // UQ16.10 LSB, modular
-  input  wire [14:0] in_r,          // UQ5.10 LSB, modular
-  input  wire [14:0] in_g,          // UQ5.10 LSB, modular
-  input  wire [14:0] in_b,          // UQ5.10 LSB, modular
+  input  wire [25:0] in_z,          // UQ16.10 LSB, modular, depth at the first pixel of the span
+  input  wire [14:0] in_r,          // UQ5.10 LSB, modular, red at the first pixel of the span
+  input  wire [14:0] in_g,          // UQ5.10 LSB, modular, green at the first pixel of the span
+  input  wire [14:0] in_b,          // UQ5.10 LSB, modular, blue at the first pixel of the span
   input  wire        in_fresh,      // first span of the triangle; increments are new
   input  wire        in_fence,      // older fragments of the same pixel may be in flight
   input  wire        out_ready,
@@ -35,10 +35,10 @@ module edgewalk_span_fifo (
   output wire  [6:0] out_y,         // line
   output wire  [9:0] out_count,     // pixels of the span, at least 1
   output wire        out_leftward,  // 1: the span runs towards smaller columns
-  output wire [25:0] out_z,         // UQ16.10 LSB, modular
-  output wire [14:0] out_r,         // UQ5.10 LSB, modular
-  output wire [14:0] out_g,         // UQ5.10 LSB, modular
-  output wire [14:0] out_b,         // UQ5.10 LSB, modular
+  output wire [25:0] out_z,         // UQ16.10 LSB, modular, depth at the first pixel of the span
+  output wire [14:0] out_r,         // UQ5.10 LSB, modular, red at the first pixel of the span
+  output wire [14:0] out_g,         // UQ5.10 LSB, modular, green at the first pixel of the span
+  output wire [14:0] out_b,         // UQ5.10 LSB, modular, blue at the first pixel of the span
   output wire        out_fresh,     // first span of the triangle; increments are new
   output wire        out_fence      // older fragments of the same pixel may be in flight
 );
@@ -64,10 +64,10 @@ module edgewalk_span_fifo (
   reg [6:0] place0_y;      // line
   reg [9:0] place0_count;  // pixels of the span, at least 1
   reg place0_leftward;     // 1: the span runs towards smaller columns
-  reg [25:0] place0_z;     // UQ16.10 LSB, modular
-  reg [14:0] place0_r;     // UQ5.10 LSB, modular
-  reg [14:0] place0_g;     // UQ5.10 LSB, modular
-  reg [14:0] place0_b;     // UQ5.10 LSB, modular
+  reg [25:0] place0_z;     // UQ16.10 LSB, modular, depth at the first pixel of the span
+  reg [14:0] place0_r;     // UQ5.10 LSB, modular, red at the first pixel of the span
+  reg [14:0] place0_g;     // UQ5.10 LSB, modular, green at the first pixel of the span
+  reg [14:0] place0_b;     // UQ5.10 LSB, modular, blue at the first pixel of the span
   reg place0_fresh;        // first span of the triangle; increments are new
   reg place0_fence;        // older fragments of the same pixel may be in flight
   wire place0_moves = pop || (count <= 1'b0);

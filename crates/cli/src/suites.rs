@@ -4,7 +4,7 @@ use crate::input::PortFrame;
 use crate::{Talk, jobs, progress};
 use anyhow::{Result, anyhow, ensure};
 use edgewalk_files::Staging;
-use edgewalk_machine::{Plan, Unknown};
+use edgewalk_machine::{Plan, nearest};
 use edgewalk_scene::InputKind;
 use edgewalk_vectors::suites::input::Sent;
 use edgewalk_vectors::{
@@ -70,11 +70,17 @@ pub fn only(suites: Vec<Suite>, names: &[String]) -> Result<Vec<Suite>> {
     if names.is_empty() {
         return Ok(suites);
     }
-    let known = || suites.iter().flat_map(|suite| &suite.cases).map(|case| case.name.as_str());
-    for name in names {
-        if !known().any(|case| case == name) {
-            return Err(anyhow!("--only: {}", Unknown::new("case", name, known())));
+    // Suites of the depth functions have the same cases.
+    let mut known: Vec<&str> = Vec::new();
+    for case in suites.iter().flat_map(|suite| &suite.cases) {
+        if !known.contains(&case.name.as_str()) {
+            known.push(&case.name);
         }
+    }
+    if let Some(name) = names.iter().find(|name| !known.contains(&name.as_str())) {
+        let near = nearest(name, known.iter().copied()).map(|near| format!("; nearest: {near}"));
+        let near = near.unwrap_or_default();
+        return Err(anyhow!("--only: unknown case {name}{near}; permitted: {}", known.join(", ")));
     }
     let suites = suites.into_iter().map(|suite| suite.only(names));
     Ok(suites.filter(|suite| !suite.cases.is_empty()).collect())
@@ -135,7 +141,11 @@ impl Set<'_> {
             let of_it: Vec<Unit> = self.units.iter().copied().filter(|unit| suite.is_for(*unit)).collect();
             if of_it.is_empty() {
                 let names: Vec<&str> = suite.units.iter().map(|unit| unit.name()).collect();
-                return Err(anyhow!("--suite {}: it is for the units {} only", suite.name, names.join(", ")));
+                return Err(anyhow!(
+                    "--suite {}: it is for the units {} only; leave it out, or take one of these units",
+                    suite.name,
+                    names.join(", ")
+                ));
             }
             work.extend(of_it.into_iter().map(|unit| (suite, unit)));
         }

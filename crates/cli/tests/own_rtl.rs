@@ -263,8 +263,15 @@ fn cases_are_replayed_alone() {
     let one = tokens("one/corners_setup/tri.in.mem");
     assert_eq!(one.lines().collect::<Vec<_>>(), wanted);
     let (code, text) = run(&["--out", "none", "--only", "flat_tpo"]);
-    assert!(code == Some(2) && text.contains("--only: unknown case flat_tpo; permitted: "), "{text}");
-    assert!(text.contains("nearest: flat_top"), "{text}");
+    assert!(
+        code == Some(2) && text.contains("--only: unknown case flat_tpo; nearest: flat_top; permitted: ")
+    );
+    let (code, text) =
+        run(&["--suite", "depth_less", "--unit", "depth", "--out", "none", "--only", "flat_tpo"]);
+    let list: Vec<&str> =
+        text.trim().rsplit_once("permitted: ").map_or(vec![], |(_, list)| list.split(", ").collect());
+    let different: std::collections::BTreeSet<_> = list.iter().collect();
+    assert!(code == Some(2) && list.len() > 10 && different.len() == list.len(), "{text}");
 }
 
 /// The example of the documents is the file that passes, and every key of a description stands there.

@@ -177,3 +177,40 @@ fn unit_of_another_machine_is_refused() {
         "the line leaves before its triangle is taken"
     );
 }
+
+/// Without --suite those suites are written that say something about the units; with it one that says nothing is refused.
+#[test]
+fn suites_left_out_are_those_of_the_units() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let directories = |out: &str| {
+        let entries = std::fs::read_dir(folder.path().join(out)).expect("a folder");
+        let names = entries.map(|entry| entry.expect("an entry").file_name().to_string_lossy().into_owned());
+        names.collect::<std::collections::BTreeSet<_>>()
+    };
+    vectors(folder.path(), "pixel", &[&["--unit", "pixel"][..], &SMALL].concat());
+    let names = ["corners_pixel", "hazards_pixel", "random_pixel", "sphere_pixel"];
+    assert_eq!(directories("pixel"), names.map(str::to_owned).into());
+    let one = ["--unit", "pixel", "--unit", "depth", "--only", "flat_top"];
+    vectors(folder.path(), "one", &[&one[..], &SMALL].concat());
+    assert_eq!(directories("one"), ["corners_depth", "corners_pixel"].map(str::to_owned).into());
+    let refused = |arguments: &[&str], message: &str| {
+        let (code, said) = run(folder.path(), &[&["vectors", "--out", "none"], arguments].concat());
+        assert!(code == Some(2) && said.contains(message), "{said}");
+    };
+    let message = "--suite depth_never: it is for the units machine, depth only; leave it out, or take one of these units";
+    refused(&["--unit", "pixel", "--suite", "depth_never"], message);
+    refused(&["--unit", "edge", "--suite", "random", "--count", "0"], "'--count <COUNT>': 0 is not in 1..");
+}
+
+/// Suites of a machine with POLY meet all that can happen there: nothing is warned of.
+#[test]
+fn machines_with_poly_warn_of_nothing() {
+    let folder = tempfile::tempdir().expect("a folder");
+    for lines in ["no", "yes"] {
+        let lines = format!("polygon.lines={lines}");
+        let machine = ["--machine", "polygon", "--set", &lines, "--no-csv", "--out", "v"];
+        let units = ["--unit", "span", "--unit", "pixel", "--unit", "poly"];
+        let (code, said) = run(folder.path(), &[&["vectors"], &units[..], &machine].concat());
+        assert!(code == Some(0) && !said.contains("warning"), "{lines}: {said}");
+    }
+}

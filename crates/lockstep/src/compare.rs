@@ -1,7 +1,9 @@
 //! Which outputs are compared when, and the first difference told in full.
 //!
-//! Fields count where their valid is high, a ready that depends on the token where that is offered, all else in every cycle.
+//! Fields count where their valid is high, and values held beside them until they may change. A ready that depends on the
+//! token counts where that is offered, all else in every cycle.
 
+use crate::held::Kept;
 use crate::interface::{Direction, Interface, Link, Port, StatusPort};
 use crate::values::{PortId, PortValues};
 use std::fmt;
@@ -32,6 +34,7 @@ pub struct Comparison {
     every_cycle: Vec<StatusPort>,
     /// Ports that count while the guard is high.
     guarded: Vec<(PortId, Range<usize>)>,
+    kept: Vec<Kept>,
 }
 
 impl Comparison {
@@ -52,13 +55,13 @@ impl Comparison {
             (Direction::In, false) => Some((link.valid, link.ready.0..link.ready.0 + 1)),
             (Direction::In, true) => None,
         });
-        Comparison { guarded: guarded.collect(), every_cycle }
+        Comparison { guarded: guarded.collect(), every_cycle, kept: Kept::of(interface) }
     }
 
-    /// Compares a cycle; adds the number of values to `compared`, and gives the first port that differs.
+    /// Compares the next cycle; adds the number of values to `compared`, and gives the first port that differs.
     #[must_use]
     pub fn first_difference(
-        &self,
+        &mut self,
         expected: &PortValues,
         found: &PortValues,
         compared: &mut u64,
@@ -66,13 +69,14 @@ impl Comparison {
         *compared += self.every_cycle.len() as u64;
         let differs = |status: &&StatusPort| status.value(expected) != status.value(found);
         let mut first = self.every_cycle.iter().find(differs).map(|status| status.port.id);
-        for (guard, range) in &self.guarded {
-            if expected.is_high(*guard) {
-                *compared += range.len() as u64;
-                let unlike = |place: &usize| expected[PortId(*place)] != found[PortId(*place)];
-                first = first.or_else(|| range.clone().find(unlike).map(PortId));
-            }
+        let offered = self.guarded.iter().filter(|(guard, _)| expected.is_high(*guard));
+        let ranges = offered.map(|(_, range)| range.clone());
+        for range in ranges.chain(self.kept.iter().map(|kept| kept.counting(expected))) {
+            *compared += range.len() as u64;
+            let unlike = |place: &usize| expected[PortId(*place)] != found[PortId(*place)];
+            first = first.or_else(|| range.clone().find(unlike).map(PortId));
         }
+        self.kept.iter_mut().for_each(|kept| kept.clock(expected));
         first
     }
 }

@@ -113,6 +113,24 @@ impl Channel {
         }
     }
 
+    /// What the value is, in the words of ports and reports.
+    #[must_use]
+    pub fn what(&self) -> String {
+        let what = match self.name {
+            "z" => "depth",
+            "r" => "red",
+            "g" => "green",
+            "b" => "blue",
+            "lx" => "column in the light's map",
+            "ly" => "line in the light's map",
+            "lz" => "depth from the light",
+            "lw" => "divisor of the light's perspective",
+            "kt" => "kt",
+            own => return format!("channel {own}"),
+        };
+        what.to_owned()
+    }
+
     /// The name of a vertex's value at the port, `place` being the vertex's number: `z0`, `e1_0`.
     #[must_use]
     pub fn at_vertex(&self, place: &str) -> String {

@@ -26,7 +26,7 @@ pub struct Field {
     pub format: Format,
     /// What they stand for.
     pub scale: Scale,
-    /// Meaning of the field; may be empty where name and unit tell it.
+    /// Meaning of the field.
     pub doc: String,
 }
 
@@ -43,8 +43,13 @@ impl Field {
     }
 
     /// A quantity.
-    pub(crate) fn of(name: impl Into<String>, format: Format, unit: &'static str) -> Field {
-        Field { name: name.into(), format, scale: Scale::Of(unit), doc: String::new() }
+    pub(crate) fn of(
+        name: impl Into<String>,
+        format: Format,
+        unit: &'static str,
+        doc: impl Into<String>,
+    ) -> Field {
+        Field { name: name.into(), format, scale: Scale::Of(unit), doc: doc.into() }
     }
 
     /// An interpolated word of a channel.
@@ -60,9 +65,10 @@ impl Field {
             Kind::Signed | Kind::Floor => Scale::Of("LSB"),
             Kind::Weight => Scale::Count,
         };
+        let what = channel.what();
         let doc = match channel.kind {
-            Kind::Weight => format!("2^{} stands for 1.0", channel.bits - 1),
-            _ => String::new(),
+            Kind::Weight => format!("{what} of the pixel, 2^{} stands for 1.0", channel.bits - 1),
+            _ => format!("{what} of the pixel"),
         };
         Field { name: channel.name.to_owned(), format: channel.output_format(), scale, doc }
     }

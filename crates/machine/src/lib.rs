@@ -63,7 +63,7 @@ pub use edgewalk_numerics::ErrorBudget;
 pub use error::MachineError;
 pub use extra::ExtraChannel;
 pub use field::{Field, Scale};
-pub use link::{Held, Link, MemoryPort, Ready, Status};
+pub use link::{Held, Link, MemoryPort, Ready, Status, Until};
 pub use machine::{EdgeKind, Fill, Hazard, Machine, SetupKind};
 pub use plan::{COLOURS, Plan};
 pub use polygon::{Lines, Polygon, Values};

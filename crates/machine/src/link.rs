@@ -44,6 +44,17 @@ impl Link {
     }
 }
 
+/// How long values are held.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Until {
+    /// Until the giver takes its next token.
+    Taken,
+    /// Until the giver takes its next token with this flag.
+    TakenWith(&'static str),
+    /// Until the giver offers its next token. A taker looks at them with the token alone.
+    Offered,
+}
+
 /// Values without a handshake, ports `name_field`: they hold from one token of the link beside them to the next.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Held {
@@ -53,6 +64,8 @@ pub struct Held {
     pub fields: Vec<Field>,
     /// The link of the giver and of the taker whose tokens they belong to.
     pub beside: &'static str,
+    /// How long the giver holds them.
+    pub until: Until,
 }
 
 /// A word memory outside the datapath: a read link for addresses, a data link back in order, and a write link.
@@ -86,6 +99,13 @@ pub struct Status {
 impl Status {
     pub(crate) fn new(name: &str, doc: &str) -> Status {
         Status { field: Field::count(name, 1, doc), during: None }
+    }
+
+    /// Meaning of the port, and when it counts.
+    #[must_use]
+    pub fn meaning(&self) -> String {
+        let during = self.during.map(|port| format!(", while {port} is 1")).unwrap_or_default();
+        format!("{}{during}", self.field)
     }
 
     pub(crate) fn during(self, port: &'static str) -> Status {

@@ -1,6 +1,7 @@
 //! What machines of several kinds declare, by hand: widths that follow from two keys, what is there for some machines only.
 
-use edgewalk_machine::{Machine, Plan, Ready, UNITS, UnitSpec};
+use edgewalk_machine::presets::PRESETS;
+use edgewalk_machine::{Machine, Plan, Ports, Ready, UNITS, UnitSpec};
 
 /// The default machine but for these keys.
 fn machine(keys: &[(&str, &str)]) -> Machine {
@@ -288,4 +289,44 @@ fn sequenced_setup_takes_a_triangle_word_by_word() {
     // z has 24 + 4 bits, x 14 + 8, a colour 8 + 4, kt 9.
     let ports: Vec<(&str, u32)> = link.fields.iter().map(|port| (port.name.as_str(), port.width())).collect();
     assert_eq!((link.name, ports), ("in", vec![("data", 28), ("tag", 5)]));
+}
+
+/// Every port says what it means, whatever the machine; no meaning begins with what the format says.
+#[test]
+fn every_port_has_a_meaning() {
+    let presets = PRESETS.iter().map(|(name, _)| Machine::preset(name).expect("a preset"));
+    let keys: [&[(&str, &str)]; 4] = [
+        &[("shade.kind", "phong"), ("shadow.light", "parallel"), ("blend.kind", "interpolated")],
+        &[("shadow.light", "perspective"), ("blend.kind", "constant"), ("memory.tag_bits", "4")],
+        &[
+            ("channels.extra", "4"),
+            ("polygon.edges", "8"),
+            ("polygon.values", "bilinear"),
+            ("edge.kind", "slope"),
+        ],
+        &[("polygon.edges", "8"), ("polygon.lines", "yes"), ("shadow.light", "parallel")],
+    ];
+    let (mut ports, mut without) = (0, Vec::new());
+    for machine in presets.chain(keys.map(machine)) {
+        let plan = machine.plan().expect("can be built");
+        for unit in plan.units() {
+            let Ports { takes, gives, writes, held_in, held_out, memory, constants, levels, status } =
+                (unit.ports)(&plan);
+            let reads = memory.into_iter().flat_map(|memory| [memory.read, memory.data]);
+            let links = takes.into_iter().chain(gives).chain(writes).chain(reads);
+            let fields = links.flat_map(|link| link.fields.into_iter().chain(link.words));
+            let held = held_in.into_iter().chain(held_out).flat_map(|held| held.fields);
+            let single =
+                constants.into_iter().chain(levels).chain(status.into_iter().map(|status| status.field));
+            for field in fields.chain(held).chain(single) {
+                ports += 1;
+                let twice = field.to_string().matches("signed").count() > 1;
+                if field.doc.is_empty() || twice {
+                    without.push(format!("{} {}: {field}", unit.name, field.name));
+                }
+            }
+        }
+    }
+    println!("checked {ports} ports");
+    assert!(without.is_empty() && ports > 1000, "{ports} ports; {without:#?}");
 }

@@ -129,9 +129,8 @@ impl<'m> Interface<'m> {
 
     /// An output that means something in every cycle.
     pub fn status(&self, name: &str, signal: impl Operand<'m>) {
-        let mut fields = self.ports.status.iter().map(|status| &status.field);
-        let field = declared(fields.find(|field| field.name == name), name);
-        self.m.output_doc(&field.name, signal, &field.to_string());
+        let status = declared(self.ports.status.iter().find(|status| status.field.name == name), name);
+        self.m.output_doc(name, signal, &status.meaning());
     }
 
     fn input(&self, field: &Field) -> Signal<'m> {

@@ -31,12 +31,13 @@ module bench_memory #(
     reg [11:0]      free;
     reg             held;
     reg [WIDTH-1:0] words [0:(1 << ADDRESS) - 1];
+    reg             used = 1'b1;  // not filled after the last clock without reset
     integer         i;
 
-    initial begin
+    task fill; begin
         for (i = 0; i < (1 << ADDRESS); i = i + 1) words[i] = CLEAR;
         if (STARTS > 0) $readmemh(START, words, 0, STARTS - 1);
-    end
+    end endtask
 
     assign valid = !rst && first != free && due[first] <= cycle && (held || willing);
     assign data  = valid ? waiting[first] : {WIDTH{1'b0}};
@@ -47,7 +48,10 @@ module bench_memory #(
             first <= 0;
             free  <= 0;
             held  <= 1'b0;
+            used  <= 1'b0;
+            if (used) fill;
         end else begin
+            used <= 1'b1;
             if (fire) first <= first + 1;
             held <= valid && !ready;
             if (read) begin
@@ -55,7 +59,7 @@ module bench_memory #(
                 due[free]     <= cycle + LATENCY;
                 free          <= free + 1;
             end
-            if (write) words[write_address] <= write_data;
+            if (write) words[write_address] = write_data;
         end
 endmodule
 `default_nettype wire

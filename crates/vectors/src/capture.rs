@@ -8,8 +8,8 @@
 
 use crate::suites::{self, Suite};
 use edgewalk_lockstep::{
-    Agreement, Direction, Interface, Link, LockstepError, NetlistDevice, Pattern, Rig, Setting, StallKind,
-    Token, Triangles, Unit, lockstep, model, patterns, status_ports,
+    Agreement, Direction, Interface, Kept, Link, LockstepError, NetlistDevice, Pattern, Rig, Setting,
+    StallKind, Token, Triangles, Unit, lockstep, model, patterns, status_ports,
 };
 use edgewalk_machine::{Plan, Walk};
 use edgewalk_model::{DrawState, Events, longest_setup};
@@ -50,6 +50,8 @@ pub struct Trace {
     pub cycles: u64,
     /// For each link the cycles in which its token was valid.
     pub valid_cycles: Vec<u64>,
+    /// Values held beside a link in the cycles in which no token is offered there.
+    pub kept_values: u64,
     /// The longest wait between two things that happened, cycles.
     pub longest_gap: u64,
     /// Events met.
@@ -132,7 +134,8 @@ impl<'a> Runs<'a> {
     }
 
     /// What enters the unit: what leaves the one before, running alone and without stalls. What another unit holds beside
-    /// that link belongs to the same triangle.
+    /// that link belongs to the same triangle. Beside a token that is not the first of its triangle no unit may look at it,
+    /// as EDGE may have the next triangle: there each bit is the other one.
     fn stimulus(&self, unit: Unit) -> Stimulus {
         let place = self.units.iter().position(|other| *other == unit);
         let Some(before) = place.and_then(|place| place.checked_sub(1)) else { return self.triangles() };
@@ -154,8 +157,14 @@ impl<'a> Runs<'a> {
             };
             let tokens = held.tokens.iter().map(|token| &token[link.own..]);
             let of: BTreeMap<u32, &[u128]> = held.triangles.iter().copied().zip(tokens).collect();
+            let fresh = taken.links[0].place("fresh");
             for (token, triangle) in out.tokens.iter_mut().zip(&out.triangles) {
-                token.extend(places.iter().map(|place| of.get(triangle).map_or(0, |values| values[*place])));
+                let unseen = fresh.is_some_and(|fresh| token[fresh] == 0);
+                let own = places.iter().map(|place| of.get(triangle).map_or(0, |values| values[*place]));
+                let held = own.zip(fields).map(|(value, port)| {
+                    if unseen { !value & (u128::MAX >> (128 - port.width())) } else { value }
+                });
+                token.extend(held);
             }
             break;
         }
@@ -220,10 +229,13 @@ impl<'a> Runs<'a> {
             status: Vec::new(),
             cycles: 0,
             valid_cycles: vec![0; count],
+            kept_values: 0,
             longest_gap: 0,
             events: Events::default(),
             interface,
         };
+        let mut kept = Kept::of(&trace.interface);
+        let (mut counting, mut since_event) = (0, 0);
         let patience = patience(self.plan, &trace.setting.patterns);
         while !rig.exhausted() || rig.cycle() < trace.cycles + patience {
             let cycle = rig.cycle();
@@ -241,6 +253,9 @@ impl<'a> Runs<'a> {
                     moved.triangles.extend(ports.triangle(place));
                 }
             }
+            counting = kept.iter().map(|kept| kept.counting(&ports).len() as u64).sum::<u64>();
+            since_event += counting;
+            kept.iter_mut().for_each(|kept| kept.clock(&ports));
             let status: Token = status_ports.iter().map(|port| port.value(&ports)).collect();
             let changed = trace.status.last().is_none_or(|(_, last)| *last != status);
             if changed {
@@ -249,9 +264,11 @@ impl<'a> Runs<'a> {
             if rig.clock(&ports) || changed {
                 trace.longest_gap = trace.longest_gap.max(cycle + 1 - trace.cycles);
                 trace.cycles = cycle + 1;
+                trace.kept_values += std::mem::take(&mut since_event);
             }
         }
         drop(rig);
+        trace.kept_values += AFTER * counting;
         trace.events = device.events().clone();
         trace
     }
@@ -308,7 +325,7 @@ impl Trace {
             (Direction::In, true) => 0,
             (Direction::In, false) => *valid,
         });
-        always + values.sum::<u64>()
+        always + values.sum::<u64>() + self.kept_values
     }
 
     /// Runs a netlist of the unit beside the model, with the stimulus of the trace.

@@ -39,8 +39,8 @@ pub struct Args {
     /// Take this many triangles of the input, evenly spread; all of them if left out
     #[arg(long, requires = "input", value_parser = clap::value_parser!(u64).range(1..))]
     triangles: Option<u64>,
-    /// Suites: hazards, corners, random, sphere, depth_never to depth_always, depth_unwritten; all of them if left
-    /// out. Machines with BLEND have blend_add and color_unwritten; with SHADOW light and light_off; with
+    /// Suites: hazards, corners, random, sphere, depth_never to depth_always, depth_unwritten; all suites of the units
+    /// if left out. Machines with BLEND have blend_add and color_unwritten; with SHADOW light and light_off; with
     /// shadow.own_pass own_map and own_picture; with SHADE shade
     #[arg(long, value_name = "NAME")]
     suite: Vec<String>,
@@ -61,7 +61,7 @@ pub struct Args {
     #[arg(long, default_value_t = 1)]
     seed: u64,
     /// Triangles of the random suite
-    #[arg(long, default_value_t = 100)]
+    #[arg(long, default_value_t = 100, value_parser = clap::value_parser!(u64).range(1..))]
     count: u64,
     /// Omit the tables for people, *.csv, which are more than half of the bytes
     #[arg(long)]
@@ -86,32 +86,27 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
         }
         None => (machine.machine(None)?, None),
     };
-    let names: Vec<&str> = match (&args.input, args.suite.is_empty()) {
-        (None, true) => {
-            SUITES.iter().filter(|suite| suite.is_for(&machine)).map(|suite| suite.name).collect()
+    let wiring = args.dut.as_deref().map(|file| own::design(file, &machine)).transpose()?;
+    let units = match &wiring {
+        Some(Wiring { dut, .. }) => vec![dut.unit],
+        None if args.unit.is_empty() => Unit::all(&machine),
+        None => {
+            args.unit.iter().try_for_each(|unit| check_unit(&machine, *unit))?;
+            args.unit.clone()
         }
-        _ => args.suite.iter().map(String::as_str).collect(),
+    };
+    let all = args.input.is_none() && args.suite.is_empty();
+    let names: Vec<&str> = match all {
+        true => SUITES.iter().filter(|suite| suite.is_for(&machine)).map(|suite| suite.name).collect(),
+        false => args.suite.iter().map(String::as_str).collect(),
     };
     let named = names.iter().map(|name| {
         Suite::named(&machine, name, args.seed, args.count).map_err(|e| anyhow!("--suite {name}: {e}"))
     });
     let suites = input.into_iter().map(Ok).chain(named).collect::<Result<Vec<_>>>()?;
-    let wiring = args.dut.as_deref().map(|file| own::design(file, &machine)).transpose()?;
-    let suites = only(suites, &args.only)?;
-    let (suites, units) = match &wiring {
-        // Of the suites that are not named those that say something about the unit.
-        Some(Wiring { dut, .. }) => {
-            let all = args.suite.is_empty();
-            let suites: Vec<Suite> =
-                suites.into_iter().filter(|suite| !all || suite.is_for(dut.unit)).collect();
-            (suites, vec![dut.unit])
-        }
-        None if args.unit.is_empty() => (suites, Unit::all(&machine)),
-        None => {
-            args.unit.iter().try_for_each(|unit| check_unit(&machine, *unit))?;
-            (suites, args.unit.clone())
-        }
-    };
+    // Of the suites that are not named those that say something about one of the units.
+    let fits = |suite: &Suite| !all || units.iter().any(|unit| suite.is_for(*unit));
+    let suites = only(suites.into_iter().filter(fits).collect(), &args.only)?;
     let out = Staging::new(&args.out)?;
     let set = Set {
         suites: &suites,

@@ -24,7 +24,14 @@ const fn fault(
     Fault { file, from, to, case, said }
 }
 
-const FAULTS: [Fault; 13] = [
+const FAULTS: [Fault; 14] = [
+    fault(
+        "my_pixel.v",
+        "always @(posedge aclk or negedge aresetn)\n    if (!aresetn) begin",
+        "initial {busy, stage_valid, m_valid} = 0;\n  always @(posedge aclk)\n    if (1'b0) begin",
+        "flat_top",
+        "frag: token ",
+    ),
     fault("my_pixel.v", "column < 640", "column < 639", LONG, "case guard_band_to_guard_band_on_a_line"),
     fault("my_pixel.v", "left ? column - 1", "left ? column + 1", "flat_top", "frag_addr: expected "),
     fault("my_pixel.v", "dr <= step_r", "dr <= step_g", "flat_top", "frag_r: expected "),

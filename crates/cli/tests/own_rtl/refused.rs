@@ -14,7 +14,12 @@ fn yosys_alone() -> tempfile::TempDir {
 }
 
 /// Changes of `pixel.toml` and what is said of them: each is refused before a simulator starts.
-const REFUSED: [(&str, &str, &str); 36] = [
+const REFUSED: [(&str, &str, &str); 37] = [
+    (
+        "[in.span]",
+        "[ports]\nactive = \"nosuch\"\n\n[in.span]",
+        "ports.active: my_pixel has no port nosuch for active; permitted: ",
+    ),
     ("[in.span]", "[in.span", "line 13: unclosed table"),
     ("unit = \"pixel\"", "unit = 7", "unit: 7; permitted: a text in quotes"),
     ("unit = \"pixel\"\n", "", "unit: missing; permitted: a value"),

@@ -12,7 +12,9 @@ fn waiting_token_must_stay_as_it_is() {
     const VALID: &str = "  reg phase, m_v;\n  always @(posedge aclk) phase <= aresetn && !phase;\n\
         assign m_valid = m_v && (m_ready || phase);\n";
     const DATA: &str = "  reg [67:0] m_d;\n  assign m_data = m_ready ? m_d : ~m_d;\n";
+    const WAITS: &str = "  reg m_v;\n  assign m_valid = m_v && m_ready;\n";
     for (port, kept, made, said) in [
+        ("m_valid", "m_v", WAITS, "frag: frag_valid waits for frag_ready, which it must not:"),
         ("m_valid", "m_v", VALID, "valid fell before the token was taken"),
         ("m_data", "m_d", DATA, "the token changed before it was taken"),
     ] {

@@ -1,7 +1,7 @@
 //! A single port, a link, a memory.
 
 use crate::values::{PortId, PortValues};
-use edgewalk_machine::{Field, Held, Ready, Scale};
+use edgewalk_machine::{Field, Held, Ready, Scale, Until};
 
 /// Which way a link's tokens go, seen from the device.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -72,6 +72,8 @@ pub struct Link {
     pub fields: Vec<Port>,
     /// Of these the token's own; the others are held beside it.
     pub own: usize,
+    /// How long the unit holds what it holds beside the token, if it does.
+    pub held_until: Option<Until>,
     /// The taker's ready means something even while there is no valid.
     pub ready_always: bool,
     /// Not empty: a token comes as so many words, one after the other in the first field; the other fields count with the last.
@@ -93,6 +95,7 @@ impl Link {
             |prefix: &'static str, field: &Field| port_of(owner, format!("{prefix}_{}", field.name), field);
         let mut fields: Vec<Port> = link.fields.iter().map(|field| own(link.name, field)).collect();
         let beside = held.iter().filter(|held| held.beside == link.name);
+        let held_until = beside.clone().next().map(|held| held.until);
         fields.extend(beside.flat_map(|held| held.fields.iter().map(|field| own(held.name, field))));
         let unplaced = PortId(usize::MAX);
         Link {
@@ -101,6 +104,7 @@ impl Link {
             direction,
             fields,
             own: link.fields.len(),
+            held_until,
             ready_always: link.ready == Ready::Always,
             words: link.words.clone(),
             valid: unplaced,
@@ -134,6 +138,18 @@ impl Link {
     #[must_use]
     pub fn place(&self, field: &str) -> Option<usize> {
         self.fields[..self.own].iter().position(|port| port.field.name == field)
+    }
+
+    /// Whether the unit holds values beside the tokens that it gives.
+    #[must_use]
+    pub fn holds(&self) -> bool {
+        self.direction == Direction::Out && self.own < self.fields.len()
+    }
+
+    /// The values held beside the token.
+    #[must_use]
+    pub fn held(&self) -> &[Port] {
+        &self.fields[self.own..]
     }
 
     /// The fields' places among the values: behind the valid.

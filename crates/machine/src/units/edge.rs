@@ -2,7 +2,7 @@
 
 use super::tokens;
 use crate::field::Field;
-use crate::link::{Held, Link};
+use crate::link::{Held, Link, Until};
 use crate::machine::Machine;
 use crate::plan::Plan;
 use crate::unit::{Ports, UnitSpec, always, events};
@@ -22,7 +22,12 @@ fn ports(plan: &Plan) -> Ports {
     Ports {
         takes: Some(Link::new("prim", tokens::prim(plan))),
         gives: Some(Link::new("line", tokens::line(plan))),
-        held_out: vec![Held { name: "inc", fields: tokens::held_by_edge(plan), beside: "line" }],
+        held_out: vec![Held {
+            name: "inc",
+            fields: tokens::held_by_edge(plan),
+            beside: "line",
+            until: Until::Taken,
+        }],
         levels: vec![Field::count("fresh_queued", 1, "the triangle before has not reached PIXEL yet")],
         ..Ports::default()
     }

@@ -1,7 +1,7 @@
 //! PIXEL: from spans to fragments.
 
 use super::tokens;
-use crate::link::{Held, Link, Status};
+use crate::link::{Held, Link, Status, Until};
 use crate::machine::Machine;
 use crate::plan::Plan;
 use crate::unit::{Ports, UnitSpec, always, events, light_pass};
@@ -21,7 +21,12 @@ fn ports(plan: &Plan) -> Ports {
     Ports {
         takes: Some(Link::new("span", tokens::walked(plan))),
         gives: Some(Link::new("frag", tokens::fragment(plan))),
-        held_in: vec![Held { name: "inc", fields: tokens::held(plan), beside: "span" }],
+        held_in: vec![Held {
+            name: "inc",
+            fields: tokens::held(plan),
+            beside: "span",
+            until: Until::Offered,
+        }],
         constants: light_pass(plan).into_iter().collect(),
         status: vec![
             Status::new("active", "a span is in progress"),
@@ -35,5 +40,5 @@ fn ports(plan: &Plan) -> Ports {
 
 events! {
     fence = "fragments that carry a fence" if always;
-    off_screen = "pixels stepped over off the screen" if always;
+    off_screen = "pixels stepped over off the screen" if |plan| !plan.polygon.is_there();
 }

@@ -2,7 +2,7 @@
 
 use super::tokens;
 use crate::field::Field;
-use crate::link::{Held, Link, Ready, Status};
+use crate::link::{Held, Link, Ready, Status, Until};
 use crate::machine::Machine;
 use crate::plan::Plan;
 use crate::unit::{Ports, UnitSpec, always, events, light_pass};
@@ -19,11 +19,13 @@ pub const SPEC: UnitSpec = UnitSpec {
 };
 
 fn ports(plan: &Plan) -> Ports {
+    // Colours along edges have increments of their own in each span.
+    let until = if plan.polygon.is_bilinear() { Until::Offered } else { Until::TakenWith("ends") };
     Ports {
         // Whether there is a side left is asked of a prim only.
         takes: Some(Link { ready: Ready::WhileValid, ..Link::new("prim", tokens::prim(plan)) }),
         gives: Some(Link::new("line", tokens::line(plan))),
-        held_out: vec![Held { name: "inc", fields: tokens::held_by_edge(plan), beside: "line" }],
+        held_out: vec![Held { name: "inc", fields: tokens::held_by_edge(plan), beside: "line", until }],
         constants: light_pass(plan).into_iter().collect(),
         levels: vec![Field::count("fresh_queued", 1, "the polygon before has not reached PIXEL yet")],
         status: vec![

@@ -33,9 +33,19 @@ fn ports(plan: &Plan) -> Ports {
     }
 }
 
+/// POLY cuts what it gives at the screen itself.
+fn cuts(plan: &Plan) -> bool {
+    !plan.polygon.is_there()
+}
+
+/// But for the pixels of lines.
+fn drops(plan: &Plan) -> bool {
+    cuts(plan) || plan.polygon.has_lines()
+}
+
 events! {
-    empty_span = "lines without a pixel" if always;
-    dropped_fresh = "lines without a pixel that passed on the mark of a triangle's first line" if always;
+    empty_span = "lines without a pixel" if drops;
+    dropped_fresh = "lines without a pixel that passed on the mark of a triangle's first line" if drops;
     line_off = "pixels of lines beside the screen" if |plan| plan.polygon.has_lines();
-    scissor_cut = "spans cut by the screen at the side where they end" if always;
+    scissor_cut = "spans cut by the screen at the side where they end" if cuts;
 }

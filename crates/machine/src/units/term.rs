@@ -2,7 +2,7 @@
 
 use super::tokens;
 use crate::field::Field;
-use crate::link::{Held, Link, MemoryPort, Ready, Status};
+use crate::link::{Held, Link, MemoryPort, Ready, Status, Until};
 use crate::machine::Machine;
 use crate::plan::Plan;
 use crate::shade::Walk;
@@ -32,8 +32,9 @@ fn ports(plan: &Plan) -> Ports {
         gives: Some(Link::new("walked", tokens::walked(plan))),
         held_in: vec![Held {
             name: "inc",
-            fields: tokens::record(plan).into_iter().collect(),
+            fields: tokens::held_record(plan),
             beside: "span",
+            until: Until::Offered,
         }],
         memory: vec![MemoryPort {
             name: "terms",

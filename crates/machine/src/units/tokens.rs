@@ -1,8 +1,11 @@
 //! The fields of the tokens that pass from unit to unit.
 
+mod held;
 mod results;
 mod stored;
 
+pub use held::*;
+use held::{kt, triangle_kt};
 pub use results::*;
 pub use stored::*;
 
@@ -28,23 +31,6 @@ fn tag(plan: &Plan) -> Option<Field> {
     (plan.tag_bits > 0).then(|| Field::count("tag", plan.tag_bits, "tag of the triangle"))
 }
 
-/// k_t, one bit more than below 1.
-fn kt(plan: &Plan) -> Field {
-    Field::count("kt", plan.blend.kt_bits + 1, format!("kt, 2^{} for 1.0", plan.blend.kt_bits))
-}
-
-/// The k_t of the triangle, if it has one.
-fn triangle_kt(plan: &Plan) -> Option<Field> {
-    plan.has_triangle_kt().then(|| kt(plan))
-}
-
-/// The number of the triangle's record, if the machine has TERM.
-#[must_use]
-pub fn record(plan: &Plan) -> Option<Field> {
-    let bits = plan.shade.record_bits;
-    plan.shade.is_there().then(|| Field::count("record", bits, "record with the triangle's terms"))
-}
-
 /// A triangle, line or part of a polygon at the port: three vertices, its k_t, its role, its window and the tag.
 #[must_use]
 pub fn triangle(plan: &Plan) -> Vec<Field> {
@@ -52,8 +38,13 @@ pub fn triangle(plan: &Plan) -> Vec<Field> {
     let position = position.expect("vertices of a planned machine have 3 to 23 bits");
     let mut fields = Vec::new();
     for place in ["0", "1", "2"] {
-        fields.extend(["x", "y"].map(|axis| Field::of(format!("{axis}{place}"), position, "px")));
-        let value = |c: &Channel| Field::of(c.at_vertex(place), c.vertex_format(), "LSB");
+        fields.extend(["x", "y"].map(|axis| {
+            Field::of(format!("{axis}{place}"), position, "px", format!("{axis} of vertex {place}"))
+        }));
+        let value = |c: &Channel| {
+            let doc = format!("{} of vertex {place}", c.what());
+            Field::of(c.at_vertex(place), c.vertex_format(), "LSB", doc)
+        };
         fields.extend(plan.channels().iter().map(value));
     }
     fields.extend(triangle_kt(plan));
@@ -108,7 +99,8 @@ fn edge(plan: &Plan, edge: &str) -> Vec<Field> {
         Field::count(name("f"), remainder, format!("{unit} a line")),
     ];
     if plan.edge_kind == EdgeKind::Exact {
-        let doc = "modulus of r and f: the edge's height, 1/P line";
+        let units = plan.widths().center_fraction;
+        let doc = format!("modulus of dist and f: the edge's height; a line has 2^{units} units");
         fields.push(Field::count(name("m"), remainder, doc));
     }
     fields
@@ -155,43 +147,32 @@ fn along_edges(plan: &Plan) -> Vec<Field> {
     if !plan.polygon.is_bilinear() {
         return Vec::new();
     }
-    let bits = plan.widths().difference - 1;
+    let (bits, fraction) = (plan.widths().difference - 1, plan.widths().center_fraction);
     let height = |ends: &str| {
         Field::count(
             format!("height{ends}"),
             bits,
-            format!("lines from vertex {} to {} of those sorted by line, 1/P line", &ends[..1], &ends[1..]),
+            format!(
+                "2^-{fraction} line, from vertex {} down to {} of those sorted by line",
+                &ends[..1],
+                &ends[1..]
+            ),
         )
     };
     let down = |vertex: &str, line: &str| {
-        Field::count(format!("down{vertex}"), bits, format!("from vertex {vertex} down to {line}, 1/P line"))
+        let doc = format!("2^-{fraction} line, from vertex {vertex} down to {line}");
+        Field::count(format!("down{vertex}"), bits, doc)
     };
     let mut fields: Vec<Field> = ["02", "01", "12"].map(height).into();
     fields.extend([down("0", "the first line"), down("1", "the first line of the lower part")]);
     for channel in &plan.channels()[COLOURS] {
-        let value =
-            |place: usize| Field::of(format!("{}_at{place}", channel.name), channel.vertex_format(), "LSB");
+        let value = |place: usize| {
+            let doc = format!("{} at vertex {place} of those sorted by line", channel.what());
+            Field::of(format!("{}_at{place}", channel.name), channel.vertex_format(), "LSB", doc)
+        };
         fields.extend((0..3).map(value));
     }
     fields
-}
-
-/// The interpolated words, a field a channel.
-#[must_use]
-pub fn words(plan: &Plan) -> Vec<Field> {
-    plan.channels().iter().map(|channel| Field::word(channel.name, channel, "")).collect()
-}
-
-/// What EDGE holds for PIXEL: the increments, and k_t of the triangle.
-#[must_use]
-pub fn held(plan: &Plan) -> Vec<Field> {
-    words(plan).into_iter().chain(triangle_kt(plan)).collect()
-}
-
-/// What EDGE holds: that, and the triangle's record for TERM.
-#[must_use]
-pub fn held_by_edge(plan: &Plan) -> Vec<Field> {
-    held(plan).into_iter().chain(record(plan)).collect()
 }
 
 /// EDGE to SPAN: one line of a triangle; POLY to SPAN: one span of a polygon.
@@ -214,7 +195,7 @@ pub fn line(plan: &Plan) -> Vec<Field> {
         Field::count("major_right", 1, "the major edge is the right one"),
     ];
     fields.extend(thin(plan));
-    fields.extend(words(plan));
+    fields.extend(held::words(plan, |what| format!("{what} at the first pixel of the line")));
     fields.extend([Field::count("fresh", 1, fresh), fence()]);
     fields.extend(tag(plan));
     fields
@@ -232,9 +213,8 @@ pub fn walked(plan: &Plan) -> Vec<Field> {
     let mut fields = Vec::new();
     for term in plan.terms() {
         let word = |part: &str, doc: &str| Field {
-            doc: doc.to_owned(),
             scale: Scale::Modular("LSB"),
-            ..Field::of(format!("{}_{part}", term.name), word_format(term), "LSB")
+            ..Field::of(format!("{}_{part}", term.name), word_format(term), "LSB", doc)
         };
         fields.extend([word("v", "value at the first pixel"), word("g", "step to the next pixel")]);
         fields.extend((term.degree == 2).then(|| word("gg", "change of the step a pixel")));
@@ -270,7 +250,7 @@ fn span_with(plan: &Plan, terms: Vec<Field>) -> Vec<Field> {
         Field::count("count", w.column, "pixels of the span, at least 1"),
         Field::count("leftward", 1, "1: the span runs towards smaller columns"),
     ];
-    fields.extend(words(plan));
+    fields.extend(held::words(plan, |what| format!("{what} at the first pixel of the span")));
     fields.extend(terms);
     fields.extend([Field::count("fresh", 1, "first span of the triangle; increments are new"), fence()]);
     fields.extend(tag(plan));
@@ -370,7 +350,7 @@ pub fn bumped(plan: &Plan) -> Vec<Field> {
 #[must_use]
 pub fn cosines(plan: &Plan) -> Vec<Field> {
     let bits = [plan.shade.diffuse_index_bits(), plan.shade.highlight_index_bits()];
-    let index = |(name, bits)| Field::signed(name, bits, "entry of SHADE's table, signed");
+    let index = |(name, bits)| Field::signed(name, bits, "entry of SHADE's table");
     let lights = COSINES.into_iter().take(plan.shade.lights as usize);
     let cosines = lights.flat_map(|names| names.into_iter().zip(bits)).map(index);
     let beam =

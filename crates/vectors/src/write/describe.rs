@@ -1,6 +1,7 @@
 //! The manifest of a trace.
 
 use super::dut;
+use super::kept;
 use super::{
     Files, Tables, cycle_file, is_served, known, params, patterns, start_file, status_fields, table_file,
     token_file, triangle_file, willing_file,
@@ -13,7 +14,7 @@ use crate::manifest::{
 };
 use crate::reach::{not_covered, reached};
 use crate::suites::Suite;
-use edgewalk_lockstep::{Direction, Interface, Port, StatusPort};
+use edgewalk_lockstep::{Direction, Interface, Link, Port, StatusPort};
 use edgewalk_machine::keys::KEYS;
 use sha2::{Digest, Sha256};
 use std::collections::BTreeMap;
@@ -43,7 +44,7 @@ pub(super) fn manifest(
         unit: interface.unit.name().to_owned(),
         module: interface.unit.module(),
         dut: wiring.map(|wiring| dut::info(interface, wiring)),
-        handshake: handshake(wiring),
+        handshake: handshake(interface, wiring),
         rounding: ROUNDING.map(str::to_owned).to_vec(),
         constants: constants.map(|(field, value)| (field.name.clone(), *value as u64)).collect(), // a few bits
         stalls: stalls(trace),
@@ -103,22 +104,38 @@ fn ours() -> (String, String) {
     ("clk, rising edge".to_owned(), "rst, synchronous, active high".to_owned())
 }
 
-fn handshake(wiring: Option<&Wiring>) -> Handshake {
+fn handshake(interface: &Interface, wiring: Option<&Wiring>) -> Handshake {
     let (clock, reset) = wiring.map_or_else(ours, dut::clock_and_reset);
     Handshake {
         kind: "valid/ready: a token moves in a cycle where both are high".to_owned(),
         clock,
         reset,
         cycle_zero: "the first cycle with rst low".to_owned(),
-        rules: vec![
-            "a valid does not wait for its ready".to_owned(),
+        rules: [
+            "a valid does not wait for its ready: tb.v has a first run, not compared, in which ready follows valid".to_owned(),
             "the bench first offers a token in a cycle whose pattern is 1, and holds it until it is taken".to_owned(),
             "the bench takes a token in the cycles whose pattern is 1".to_owned(),
             "fields count only while valid is high".to_owned(),
             "with the cycles not compared (make CHECK_CYCLES=0) order and values of the tokens count, and no status"
                 .to_owned(),
-        ],
+        ].into_iter().chain(held(interface)).collect(),
     }
+}
+
+/// When values held beside a channel count.
+fn held(interface: &Interface) -> Vec<String> {
+    let names = |link: &Link| {
+        let names: Vec<&str> = link.held().iter().map(|port| port.name.as_str()).collect();
+        names.join(", ")
+    };
+    let given = kept::all(interface).map(|kept| {
+        let (values, fresh, taken) = (names(kept.link), &kept.fresh.name, kept.taken.name);
+        let ends = kept.ends.map(|ends| format!(" with {}", ends.name)).unwrap_or_default();
+        format!("{values} stay from a token with {fresh} until the next token of {taken}{ends} moves")
+    });
+    let taken = interface.links_of(Direction::In).filter(|link| !link.held().is_empty());
+    let taken = taken.map(|link| format!("{} count only with a token with {}_fresh", names(link), link.name));
+    given.chain(taken).collect()
 }
 
 fn stalls(trace: &Trace) -> Stalls {

@@ -66,7 +66,7 @@ fn instance(module: &str, parameters: &str, ports: &[String], status: &[String])
 }
 
 /// The fields of a link, each with its bits of the packed token.
-fn places(link: &Link) -> impl Iterator<Item = (&Port, String)> {
+pub fn places(link: &Link) -> impl Iterator<Item = (&Port, String)> {
     let mut high = link.width();
     link.fields.iter().map(move |field| {
         let bits = format!("{}_token[{}:{}]", link.name, high - 1, high - field.width());
@@ -136,7 +136,8 @@ pub fn own(interface: &Interface, wiring: &Wiring) -> Device {
     }
 }
 
-/// The first words of a memory inside the design. The design may fill it at time 0 too: the bench comes later.
+/// The first words of a memory inside the design, at the begin of each run. The design may fill it at time 0 too: the bench
+/// comes later.
 fn filled(memory: &Memory, path: &str) -> String {
     let start = if memory.write.is_none() { START } else { "" };
     FILL.replace("{start}", start)
@@ -149,7 +150,7 @@ fn filled(memory: &Memory, path: &str) -> String {
 const FILL: &str = r#"
     // The memory {memory} is inside the design.
     integer {memory}_word;
-    initial begin
+    always @(negedge rst) begin
         #1;
         for ({memory}_word = 0; {memory}_word <= {last}; {memory}_word = {memory}_word + 1)
             dut.{path}[{memory}_word] = {MEMORY}_CLEAR;
@@ -274,7 +275,8 @@ impl Own {
 
 const HOLD: &str = r#"    wire [31:0] {name}_unheld;
     bench_hold #(.WIDTH({NAME}_WIDTH), .NAME("{name}")) {name}_hold (
-        .clk(clk), .rst(rst), .cycle(cycle), .valid({name}_valid), .ready({name}_ready), .data({name}_token),
+        .clk(clk), .rst(rst), .told(compared), .cycle(cycle),
+        .valid({name}_valid), .ready({name}_ready), .data({name}_token),
         .beyond({beyond}), .wrong({name}_unheld)
     );
 "#;

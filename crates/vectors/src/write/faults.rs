@@ -35,7 +35,7 @@ pub fn telling(name: &str, suffix: &str, fields: &[Port], known: bool) -> String
     let arguments = format!("{name}_checked{triangle_of}");
     let _ = write!(
         text,
-        r#"    always @(posedge clk) if ({name}_fault != 0 && {name}_wrong < SHOWN) {name}_tell;
+        r#"    always @(posedge clk) if (compared && {name}_fault != 0 && {name}_wrong < SHOWN) {name}_tell;
     task {name}_tell; begin
         if ({name}_fault == 1)
             $display("{name}: cycle %0d: %h is one more than the %0d expected", cycle, {found}, {upper}_COUNT);

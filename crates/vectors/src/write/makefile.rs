@@ -13,6 +13,8 @@ pub struct Sources<'a> {
     pub hdl: Vec<String>,
     /// A user's design: what else is to be known of it.
     pub dut: Option<&'a Dut>,
+    /// The modules of the test bench.
+    pub modules: Vec<&'static str>,
 }
 
 impl Sources<'_> {
@@ -28,8 +30,7 @@ impl Sources<'_> {
 
     /// The files of the test bench, itself last.
     pub(super) fn bench(&self) -> Vec<&'static str> {
-        let own = self.dut.map(|_| super::testbench::OWN_MODULE.0);
-        super::testbench::MODULES.into_iter().map(|(name, _)| name).chain(own).chain(["tb.v"]).collect()
+        self.modules.iter().copied().chain(["tb.v"]).collect()
     }
 
     /// The Makefile.

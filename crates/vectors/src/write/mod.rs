@@ -22,6 +22,7 @@ pub mod core;
 mod device;
 mod dut;
 mod faults;
+mod kept;
 mod makefile;
 pub mod mem;
 mod params;
@@ -124,20 +125,22 @@ fn all(suite: &Suite, trace: &Trace, design: Design, tables: Tables) -> Files {
     add("SHA256SUMS".to_owned(), sums);
 
     let module = interface.unit.module();
+    let modules = testbench::modules(interface, wiring.is_some());
+    let names = modules.iter().map(|(name, _)| *name).collect();
     let sources = match wiring {
         None => {
             let hdl = ours.iter().map(|(name, _)| format!("hdl/{name}")).collect();
-            makefile::Sources { module: &module, top: &module, hdl, dut: None }
+            makefile::Sources { module: &module, top: &module, hdl, dut: None, modules: names }
         }
         Some(Wiring { dut, .. }) => {
             let hdl = dut.files.iter().map(|file| file.display().to_string()).collect();
-            makefile::Sources { module: &module, top: &dut.top, hdl, dut: Some(dut) }
+            makefile::Sources { module: &module, top: &dut.top, hdl, dut: Some(dut), modules: names }
         }
     };
     for (name, text) in ours {
         add(format!("hdl/{name}"), text.clone());
     }
-    for (name, text) in testbench::MODULES.into_iter().chain(wiring.map(|_| testbench::OWN_MODULE)) {
+    for (name, text) in modules {
         add(name.to_owned(), format!("{stamp}\n{text}"));
     }
     add(

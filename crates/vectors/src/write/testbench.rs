@@ -2,6 +2,7 @@
 
 use super::device::{self, Device};
 use super::faults;
+use super::kept;
 use crate::dut::Wiring;
 use crate::seen::{Sight, sights};
 use edgewalk_lockstep::{Direction, Interface, Link, Memory, Port, StatusPort, status_ports};
@@ -9,30 +10,40 @@ use edgewalk_machine::Plan;
 use std::fmt::Write as _;
 
 /// The modules that every test bench uses, file name and text.
-pub const MODULES: [(&str, &str); 5] = [
+const MODULES: [(&str, &str); 6] = [
     ("bench_pattern.v", include_str!("../../bench/bench_pattern.v")),
     ("bench_source.v", include_str!("../../bench/bench_source.v")),
+    ("bench_taker.v", include_str!("../../bench/bench_taker.v")),
     ("bench_sink.v", include_str!("../../bench/bench_sink.v")),
     ("bench_change.v", include_str!("../../bench/bench_change.v")),
     ("bench_memory.v", include_str!("../../bench/bench_memory.v")),
 ];
 
 /// The module that a bench for a user's design uses beside them.
-pub const OWN_MODULE: (&str, &str) = ("bench_hold.v", include_str!("../../bench/bench_hold.v"));
+const OWN_MODULE: (&str, &str) = ("bench_hold.v", include_str!("../../bench/bench_hold.v"));
+
+/// The module that the bench of a unit uses which holds values beside a channel.
+const HELD_MODULE: (&str, &str) = ("bench_kept.v", include_str!("../../bench/bench_kept.v"));
+
+/// The modules of a unit's bench, file name and text; `own`: for a user's design.
+pub fn modules(interface: &Interface, own: bool) -> Vec<(&'static str, &'static str)> {
+    let own = own.then_some(OWN_MODULE);
+    let held = kept::all(interface).next().map(|_| HELD_MODULE);
+    MODULES.into_iter().chain(own).chain(held).collect()
+}
 
 /// The test bench of a unit, or of the design that is wired to its ports; `known` are the channels out whose tokens have a
 /// file of triangles.
 #[must_use]
 pub fn testbench(plan: &Plan, interface: &Interface, known: &[&str], wiring: Option<&Wiring>) -> String {
-    let device = wiring.map_or_else(|| device::reference(interface), |wiring| device::own(interface, wiring));
+    let mut device =
+        wiring.map_or_else(|| device::reference(interface), |wiring| device::own(interface, wiring));
     let mut text = header(&device);
     for channel in &interface.links {
         text.push_str(&channel_wires(channel));
     }
     for (place, channel) in interface.links.iter().enumerate() {
-        // A design without a ready gives its tokens whether anybody is willing or not.
-        let asked = wiring.is_none_or(|wiring| wiring.links[place].ready.is_some());
-        text.push_str(&channel_end(interface, channel, asked));
+        text.push_str(&channel_end(interface, channel, asked(wiring, place)));
         if channel.direction == Direction::Out {
             text.push_str(&faults::telling(
                 channel.name,
@@ -42,12 +53,15 @@ pub fn testbench(plan: &Plan, interface: &Interface, known: &[&str], wiring: Opt
             ));
         }
     }
+    let (watched, unkept) = kept::section(interface, wiring);
+    text.push_str(&watched);
+    device.wrong.extend(unkept);
     text.push_str(&status_section(interface, &super::status_fields(interface)));
     text.push_str(&levels_section(interface));
     text.push_str(&device.instance);
     let counted = wiring.map(|wiring| counted(plan, interface, wiring)).unwrap_or_default();
     text.push_str(&events_section(&counted));
-    text.push_str(&end_section(interface, &device, &counted));
+    text.push_str(&end_section(interface, &device, &counted, wiring));
     text
 }
 
@@ -70,7 +84,7 @@ fn events_section(counted: &[(&str, String)]) -> String {
     for (event, condition) in counted {
         let _ = writeln!(
             text,
-            "    reg  [31:0] met_{event} = 0;\n    always @(posedge clk) if (!rst && ({condition})) met_{event} <= met_{event} + 1;"
+            "    reg  [31:0] met_{event} = 0;\n    always @(posedge clk) if (!rst && compared && ({condition})) met_{event} <= met_{event} + 1;"
         );
     }
     text
@@ -89,6 +103,7 @@ fn header(device: &Device) -> String {
         .replace("{order}", order)
         .replace("{clocks}", &clocks)
         .replace("{counter}", &counter)
+        .replace("{cycles}", cycles)
 }
 
 const HEADER: &str = r#"// Replays the tokens of the .in.mem files into {module} and compares everything that comes out with
@@ -111,14 +126,22 @@ module tb;
 `include "params.vh"
 `include "cases.vh"
 
-    // {clocks} of reset; cycle 0 is the first without.
+    // {clocks} of reset; cycle 0 is the first without. A first run, in which no ready comes before its valid, ends with a
+    // second reset when each channel out has offered a token. The run behind it is the one that is compared.
     reg        clk = 1'b0;
     {counter}
+    reg        compared = 1'b0;
     wire       rst = resets != 0;
+    wire       first_ends;
     reg [31:0] cycle = 0;
     always #5 clk = !clk;
     always @(posedge clk)
-        if (rst) resets <= resets - 1;
+        if (first_ends) begin
+            resets   <= {cycles};
+            compared <= 1'b1;
+            cycle    <= 0;
+        end
+        else if (rst) resets <= resets - 1;
         else cycle <= cycle + 1;
 "#;
 
@@ -139,11 +162,21 @@ fn channel_end(interface: &Interface, channel: &Link, asked: bool) -> String {
     let end = match (channel.direction, served) {
         (Direction::In, Some(memory)) => memory_end(interface, memory),
         (Direction::In, None) => SOURCE.to_owned(),
-        (Direction::Out, _) => SINK.replace("{willing}", if asked { "{name}_willing" } else { "1'b1" }),
+        (Direction::Out, _) => {
+            let (willing, shy) = if asked { ("{name}_willing", "!compared") } else { ("1'b1", "1'b0") };
+            SINK.replace("{willing}", willing).replace("{shy}", shy)
+        }
     };
-    (PATTERN.to_owned() + &end)
-        .replace("{name}", channel.name)
-        .replace("{NAME}", &channel.name.to_uppercase())
+    of_link(&(PATTERN.to_owned() + &end), channel)
+}
+
+/// A design without a ready gives its tokens whether anybody is willing or not.
+fn asked(wiring: Option<&Wiring>, place: usize) -> bool {
+    wiring.is_none_or(|wiring| wiring.links[place].ready.is_some())
+}
+
+fn of_link(template: &str, link: &Link) -> String {
+    template.replace("{name}", link.name).replace("{NAME}", &link.name.to_uppercase())
 }
 
 const PATTERN: &str = r#"
@@ -164,7 +197,11 @@ const SOURCE: &str = r#"    wire {name}_more;
 const SINK: &str = r#"    wire [31:0] {name}_checked, {name}_wrong, {name}_due;
     wire [2:0]  {name}_fault;
     wire [{NAME}_WIDTH-1:0] {name}_want;
-    assign {name}_ready = {willing};
+    wire {name}_offered;
+    bench_taker {name}_taker (
+        .clk(clk), .rst(rst), .shy({shy}), .willing({willing}),
+        .valid({name}_valid), .ready({name}_ready), .offered({name}_offered)
+    );
     assign {name}_fire  = !rst && {name}_valid && {name}_ready;
     bench_sink #(
         .WIDTH({NAME}_WIDTH), .COUNT({NAME}_COUNT), .CHECK_CYCLES(CHECK_CYCLES),
@@ -264,13 +301,24 @@ fn range(field: &Port) -> String {
     if field.width() == 1 { String::new() } else { format!("[{}:0] ", field.width() - 1) }
 }
 
-fn end_section(interface: &Interface, device: &Device, counted: &[(&str, String)]) -> String {
+fn end_section(
+    interface: &Interface,
+    device: &Device,
+    counted: &[(&str, String)],
+    wiring: Option<&Wiring>,
+) -> String {
     let out: Vec<&str> = interface.links_of(Direction::Out).map(|link| link.name).collect();
     let sum =
         |suffix: &str| out.iter().map(|name| format!("{name}_{suffix}")).collect::<Vec<_>>().join(" + ");
     let counts =
         out.iter().map(|name| format!("{}_COUNT", name.to_uppercase())).collect::<Vec<_>>().join(" + ");
     let fires: Vec<String> = interface.links.iter().map(|link| format!("{}_fire", link.name)).collect();
+    let every = out.iter().map(|name| format!("({name}_offered || {}_COUNT == 0)", name.to_uppercase()));
+    let every = every.collect::<Vec<_>>().join(" && ");
+    let links = interface.links.iter().zip(0..).filter(|(link, _)| link.direction == Direction::Out);
+    let asked: Vec<&Link> = links.filter(|(_, place)| asked(wiring, *place)).map(|(link, _)| link).collect();
+    let stuck = asked.iter().map(|link| of_link(STUCK, link)).collect::<String>();
+    let waited = asked.iter().map(|link| of_link(WAITED, link)).collect::<String>();
     let mut missing = String::new();
     for name in out.iter().chain([&"status"]) {
         let (upper, condition) =
@@ -279,13 +327,17 @@ fn end_section(interface: &Interface, device: &Device, counted: &[(&str, String)
     }
     let met =
         counted.iter().map(|(event, _)| format!("        $display(\"met {event} %0d\", met_{event});\n"));
-    let wrong = [vec![sum("wrong")], device.wrong.clone()].concat().join(" + ");
+    let waits = asked.iter().map(|link| format!("{}_waits", link.name)).collect();
+    let wrong = [vec![sum("wrong")], device.wrong.clone(), waits].concat().join(" + ");
     END.replace("{ports}", &port_widths(device))
         .replace("{checked}", &sum("checked"))
         .replace("{wrong}", &wrong)
         .replace("{counts}", &counts)
         .replace("{fires}", &fires.join(" || "))
         .replace("{missing}", &missing)
+        .replace("{every}", &every)
+        .replace("{stuck}", &stuck)
+        .replace("{waited}", &waited)
         .replace("{met}", &met.collect::<String>())
 }
 
@@ -333,24 +385,39 @@ const END: &str = r#"
     wire [31:0] wrong   = {wrong} + status_wrong;
     wire        event_now = {fires} || status_change;
     reg  [31:0] quiet = 0;
-    always @(posedge clk) if (!rst) begin
-        quiet <= event_now ? 0 : quiet + 1;
-        if (quiet == IDLE_LIMIT || cycle == CYCLE_LIMIT) finish_run;
+    wire        at_end = !rst && (quiet == IDLE_LIMIT || cycle == CYCLE_LIMIT);
+    assign first_ends = !rst && !compared && (at_end || ({every}));
+{stuck}    always @(posedge clk) begin
+        quiet <= rst || event_now ? 0 : quiet + 1;
+        if (compared && at_end) finish_run;
     end
 
 {ports}
     task finish_run; begin
-{missing}        if (cycle == CYCLE_LIMIT) $display("still busy after %0d cycles", cycle);
+{missing}{waited}        if (cycle == CYCLE_LIMIT) $display("still busy after %0d cycles", cycle);
 {met}        $display("cycles %0d", cycle - quiet);
         $display("wrong %0d", wrong);
         $display("checked %0d / %0d", checked, EXPECTED);
         if (TOKENS == 0) $display("FAIL: nothing was compared");
-        else if (wrong != 0 || checked != EXPECTED || cycle == CYCLE_LIMIT) $display("FAIL");
+        else if (wrong !== 0 || checked != EXPECTED || cycle == CYCLE_LIMIT) $display("FAIL");
         else $display("PASS");
         $finish;
     end endtask
 endmodule
 `default_nettype wire
+"#;
+
+/// In the first run all was quiet before the channel offered its first token.
+const STUCK: &str = r#"    reg         {name}_stuck = 1'b0;
+    wire [31:0] {name}_waits = {name}_stuck && {name}_checked != 0 ? 1 : 0;
+    always @(posedge clk)
+        if (first_ends) {name}_stuck <= quiet === IDLE_LIMIT && !{name}_offered && {NAME}_COUNT != 0;
+"#;
+
+const WAITED: &str = r#"        if ({name}_waits != 0) begin
+            $display("{name}: {name}_valid waits for {name}_ready, which it must not:");
+            $display("    no token was offered in the first run, in which {name}_ready is 0 until {name}_valid is 1");
+        end
 "#;
 
 /// Words with spaces between, broken at about `width` characters.
