@@ -3,7 +3,7 @@
 use super::stopwatch::{Stopwatch, Time};
 use anyhow::{Result, anyhow};
 use edgewalk_lockstep::{Interface, Setting, Unit};
-use edgewalk_machine::{Plan, PortVertex};
+use edgewalk_machine::{Counted, Plan, PortVertex, wholes};
 use edgewalk_model::fast::Renderer;
 use edgewalk_model::{Counters, DrawState, Pass, Shading, Waits, render_passes};
 use serde::Serialize;
@@ -28,7 +28,7 @@ impl Work {
 pub struct Job<'a> {
     /// On this machine.
     pub machine: &'a Plan,
-    /// In this order.
+    /// Triangles, lines and parts of polygons in this order, each a token.
     pub triangles: &'a [[PortVertex; 3]],
     /// What the memories hold that nobody writes; a record for each triangle.
     pub shading: &'a Shading,
@@ -90,12 +90,18 @@ impl<'a> Job<'a> {
         Ok(Job { machine, triangles, shading, state, waits, repeat, fragments, work })
     }
 
-    /// The first triangles, that take about `cycles`, at least one.
+    /// The first triangles, polygons and lines, that take about `cycles`, at least one.
     pub fn part(&self, cycles: u64) -> Result<Job<'a>> {
         let share = cycles as f64 / self.work.cycles.max(1) as f64;
-        let count = (self.triangles.len() as f64 * share).ceil() as usize;
-        let part = &self.triangles[..count.min(self.triangles.len())];
+        let count = (self.counted().total() as f64 * share).ceil() as usize;
+        let tokens: usize = wholes(self.triangles).take(count).map(<[_]>::len).sum();
+        let part = &self.triangles[..tokens];
         Job::new(self.machine, part, self.shading, (self.state, self.waits), self.repeat)
+    }
+
+    /// How many triangles, polygons and lines it draws.
+    pub fn counted(&self) -> Counted {
+        Counted::of(self.triangles)
     }
 
     /// The words of a memory from address 0 on; none of one that the machine writes.

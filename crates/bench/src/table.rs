@@ -1,6 +1,7 @@
 //! The figures, as a table and as one line of JSON.
 
 use super::job::{Job, Times, Work};
+use edgewalk_machine::Counted;
 use serde::Serialize;
 use serde_json::json;
 
@@ -27,11 +28,15 @@ struct Figures {
     noise: Option<f64>,
     /// From the changed parameter to the first frame, on the wall.
     first_ms: f64,
+    #[serde(skip)]
+    drawn: Counted,
+    /// With polygons and lines.
     triangles: usize,
     fragments: u64,
     cycles: u64,
     cycles_per_second: f64,
     pixels_per_second: f64,
+    /// With polygons and lines.
     triangles_per_second: f64,
     /// Simulated cycles a second, Verilator's being 1.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -57,17 +62,19 @@ impl Row {
         let quantile = |quarters: usize| cpu[(cpu.len() - 1) * quarters / 4];
         let median = quantile(2);
         let a_second = |count: u64| count as f64 * 1e3 / median;
+        let drawn = job.counted();
         let figures = Figures {
             cpu_ms_median: median,
             ms_min: cpu[0],
             noise: (cpu.len() >= 4).then(|| (quantile(3) - quantile(1)) / median),
             first_ms: times.first,
-            triangles: job.triangles.len(),
+            drawn,
+            triangles: drawn.total(),
             fragments: job.fragments,
             cycles: job.work.cycles,
             cycles_per_second: a_second(job.work.cycles),
             pixels_per_second: a_second(job.fragments),
-            triangles_per_second: a_second(job.triangles.len() as u64),
+            triangles_per_second: a_second(drawn.total() as u64),
             ratio_to_verilator: None,
         };
         Row { engine, absent: None, differs: None, figures: Some(figures) }
@@ -117,13 +124,16 @@ impl<'a> Table<'a> {
     /// As JSON. The first engine that took part, the fastest, stands for all.
     pub fn json(&self) -> serde_json::Value {
         let first = self.rows.iter().find_map(|row| Some((row.engine, row.figures.as_ref()?)));
+        let counted = self.whole.counted();
         json!({
             "renderer": "edgewalk",
             "engine": first.map(|(engine, _)| engine),
             "cpu_ms_median": first.map(|(_, figures)| figures.cpu_ms_median),
             "ms_min": first.map(|(_, figures)| figures.ms_min),
             "repeat": self.whole.repeat,
-            "triangles": self.whole.triangles.len(),
+            "triangles": counted.triangles,
+            "polygons": counted.polygons,
+            "lines": counted.lines,
             "fragments": self.whole.fragments,
             "cycles": self.whole.work.cycles,
             "machine": self.whole.machine.hash(),
@@ -133,11 +143,10 @@ impl<'a> Table<'a> {
 
     /// As a page of text.
     pub fn text(&self) -> String {
-        let whole = self.whole;
+        let (whole, counted) = (self.whole, self.whole.counted());
         let mut text = format!(
-            "{} triangles, {} fragments, {} cycles a frame, machine {}; median of {} frames\n\
+            "{counted}, {} fragments, {} cycles a frame, machine {}; median of {} frames\n\
              {:<12}{:>10}{:>10}{:>8}{:>11}{:>11}{:>10}{:>12}{:>9}\n",
-            whole.triangles.len(),
             whole.fragments,
             whole.work.cycles,
             whole.machine.hash(),
@@ -149,7 +158,7 @@ impl<'a> Table<'a> {
             "first ms",
             "Mcycle/s",
             "Mpixel/s",
-            "Mtriangle/s",
+            if counted.total() == counted.triangles { "Mtriangle/s" } else { "Mprim/s" },
             "ratio",
         );
         for row in &self.rows {
@@ -175,8 +184,8 @@ impl<'a> Table<'a> {
         if let Some(ratio) = f.ratio_to_verilator {
             line += &format!("{ratio:>9.2}");
         }
-        if f.triangles < self.whole.triangles.len() {
-            line += &format!("  first {} triangles, {} cycles", f.triangles, f.cycles);
+        if f.triangles < self.whole.counted().total() {
+            line += &format!("  first {}, {} cycles", f.drawn, f.cycles);
         }
         line + "\n"
     }
@@ -317,6 +326,24 @@ mod tests {
             format!("{} cycles instead of {cycles}, {writes} writes instead of {writes}", cycles + 1);
         assert_eq!(lines[3], format!("{:<12}  differs from the machine: {differs}", "tick"));
         assert_eq!(lines[4], format!("{:<12}  why", "jit"));
+    }
+
+    /// A part of polygons has no open contour, and is counted in polygons.
+    #[test]
+    fn a_part_has_whole_polygons() {
+        let polygon = edgewalk_machine::Polygon { edges: 8, ..Default::default() };
+        let plan =
+            Machine { width: 24, height: 20, guard_bits: 6, polygon, ..Machine::default() }.plan().unwrap();
+        let corner = |x, y| plan.port_vertex(x, y, &[0.5, 0.5, 0.5, 0.5]).unwrap();
+        let contour = vec![corner(1.0, 1.0), corner(20.0, 2.0), corner(18.0, 17.0), corner(3.0, 15.0)];
+        let one = plan.polygon(std::slice::from_ref(&contour), plan.window_from(&contour));
+        let (all, shading) = ([one.clone(), one.clone(), one.clone()].concat(), Shading::default());
+        let whole = Job::new(&plan, &all, &shading, (DrawState::default(), Waits::Never), 1).unwrap();
+        assert_eq!((one.len(), whole.counted().to_string()), (2, "3 polygons".to_owned()));
+        for cycles in 1..=whole.work.cycles {
+            let part = whole.part(cycles).unwrap();
+            assert_eq!(part.triangles.len(), 2 * part.counted().polygons, "{cycles} cycles");
+        }
     }
 
     /// A frame that differs is not hidden by those before or after it.

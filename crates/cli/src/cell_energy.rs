@@ -4,7 +4,7 @@ use crate::cost::cache_folder;
 use anyhow::{Context, Result, anyhow};
 use edgewalk_files::Scratch;
 use edgewalk_host::port::PortFrame;
-use edgewalk_machine::Plan;
+use edgewalk_machine::{Counted, Plan};
 use edgewalk_model::{Counters, Pass};
 use edgewalk_netlist::Transitions;
 use edgewalk_synth::{Activity, Cache, Design, Library, Part, Placeless, Power, gates, power};
@@ -29,8 +29,6 @@ pub struct Drawing<'d> {
     pub machine: &'d Plan,
     /// The frame at its port.
     pub port: &'d PortFrame,
-    /// Draw so many triangles.
-    pub triangles: usize,
     /// Stop after so many cycles.
     pub cycles: u64,
 }
@@ -52,7 +50,7 @@ impl CellEnergy {
     }
 
     /// Draws with the machine's netlist, counts transitions, and computes area, clock and energy at so many MHz, or at the
-    /// fastest clock. Each triangle that enters the machine calls `taken`.
+    /// fastest clock. Each token that enters the machine calls `taken`.
     ///
     /// # Errors
     /// A tool is missing, fails or takes too long; a machine that cannot be built.
@@ -67,16 +65,17 @@ impl CellEnergy {
             (name, Activity { transitions: a_cycle(bit.transitions), high: a_cycle(bit.high) })
         });
         let mhz = mhz.unwrap_or(1000.0 / gates.placeless.ns);
+        let frame = frame(of.port, cycles, &counters);
         let power = power(&gates, &self.library, &activity.collect(), 1000.0 / mhz, &self.cache, self.limit)?;
         Ok(Report {
-            energy: energy(&power, mhz, cycles, &counters),
+            energy: energy(&power, mhz, &frame),
             machine: of.machine.hash(),
             library: self.library.name().to_owned(),
             gate: self.library.gate().to_owned(),
             placeless: gates.placeless,
             mhz,
             power,
-            frame: frame(cycles, &counters),
+            frame,
         })
     }
 }
@@ -103,7 +102,11 @@ pub struct Report {
 #[derive(Serialize)]
 struct Frame {
     cycles: u64,
+    /// Taken in, with polygons and lines.
     triangles: u64,
+    /// What they are.
+    #[serde(skip)]
+    noun: &'static str,
     fragments: u64,
     writes: u64,
 }
@@ -113,7 +116,7 @@ struct Frame {
 struct Energy {
     cycle_pj: f64,
     frame_pj: f64,
-    /// Of a triangle taken in; null if none was.
+    /// Of a triangle, polygon or line taken in; null if none was.
     triangle_pj: Option<f64>,
     /// Of a pixel written; null if none was.
     pixel_pj: Option<f64>,
@@ -123,10 +126,10 @@ struct Energy {
 
 /// Draws, and counts transitions.
 fn drawn(of: &Drawing, told: &dyn Fn()) -> Result<(Transitions, Counters)> {
-    let Drawing { machine, port, triangles, cycles } = *of;
+    let Drawing { machine, port, cycles } = *of;
     let mut counted: Option<Transitions> = None;
-    let taken = port.triangles.iter().take(triangles).copied().inspect(|_| told());
-    let passes = [Pass { triangles, ..Pass::all(port.state()?) }];
+    let taken = port.triangles.iter().copied().inspect(|_| told());
+    let passes = [Pass { triangles: port.triangles.len(), ..Pass::all(port.state()?) }];
     let counters = edgewalk_lockstep::render_rtl_with(machine, taken, &passes, port.words(), |sim| {
         let counted = counted.get_or_insert_with(|| Transitions::new(sim, "edgewalk"));
         counted.sample(sim);
@@ -135,12 +138,16 @@ fn drawn(of: &Drawing, told: &dyn Fn()) -> Result<(Transitions, Counters)> {
     Ok((counted.context("the machine did not run")?, counters))
 }
 
-fn frame(cycles: u64, counters: &Counters) -> Frame {
-    let Counters { triangles, fragments, writes, .. } = *counters;
-    Frame { cycles, triangles, fragments, writes }
+fn frame(port: &PortFrame, cycles: u64, counters: &Counters) -> Frame {
+    let Counters { triangles: tokens, fragments, writes, .. } = *counters;
+    let taken = Counted::of(&port.triangles[..tokens as usize]);
+    let triangles = taken.total() as u64;
+    let noun = if taken.total() == taken.triangles { "triangle" } else { "triangle, polygon or line" };
+    Frame { cycles, triangles, noun, fragments, writes }
 }
 
-fn energy(power: &Power, mhz: f64, cycles: u64, counters: &Counters) -> Energy {
+fn energy(power: &Power, mhz: f64, drawn: &Frame) -> Energy {
+    let cycles = drawn.cycles;
     // W/MHz is uJ a cycle.
     let frame = |watts: f64| watts / mhz * 1e6 * cycles as f64;
     let frame_pj = frame(power.watts);
@@ -148,8 +155,8 @@ fn energy(power: &Power, mhz: f64, cycles: u64, counters: &Counters) -> Energy {
     Energy {
         cycle_pj: frame_pj / cycles as f64,
         frame_pj,
-        triangle_pj: each(counters.triangles),
-        pixel_pj: each(counters.writes),
+        triangle_pj: each(drawn.triangles),
+        pixel_pj: each(drawn.writes),
         units: power.units.iter().map(|unit| (unit.unit.clone(), frame(unit.watts))).collect(),
     }
 }
@@ -198,7 +205,7 @@ impl Report {
             frame.cycles
         );
         for (what, count, pj) in [
-            ("triangle", frame.triangles, energy.triangle_pj),
+            (frame.noun, frame.triangles, energy.triangle_pj),
             ("pixel written", frame.writes, energy.pixel_pj),
         ] {
             if let Some(pj) = pj {
@@ -240,8 +247,7 @@ mod tests {
         let Drawn::Ticked(model, ..) = draw_frame(&machine, &port, Waits::Never).expect("is drawn") else {
             panic!("machines with SHADE are ticked");
         };
-        let drawing =
-            Drawing { machine: &machine, port: &port, triangles: port.triangles.len(), cycles: 1 << 20 };
+        let drawing = Drawing { machine: &machine, port: &port, cycles: 1 << 20 };
         let (counted, counters) = drawn(&drawing, &|| ()).expect("is drawn");
         let model = model.counters;
         assert_eq!((counted.cycles(), counters.writes), (model.cycles, model.writes));

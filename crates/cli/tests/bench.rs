@@ -86,7 +86,7 @@ fn an_engine_that_draws_a_part_says_which() {
     let output = command.output().unwrap();
     let told = String::from_utf8(output.stdout).unwrap();
     let line = |engine: &str| told.lines().find(|line| line.starts_with(engine)).unwrap();
-    assert!(line("interpreter").contains("  first 1 triangles, "), "{told}");
+    assert!(line("interpreter").contains("  first 1 triangle, "), "{told}");
     assert!(["fast", "tick"].iter().all(|engine| !line(engine).contains("first")), "{told}");
 }
 

@@ -155,7 +155,9 @@ fn energy_refuses_what_it_cannot_do() {
     let folder = tempfile::tempdir().unwrap();
     for (words, why) in [
         (&["energy", "sphere", "--mhz", "0"][..], "permitted: 0.001 to 100000"),
-        (&["energy", "sphere", "--triangles", "0"], "nothing was drawn"),
+        (&["energy", "sphere", "--triangles", "0"], "'0' for '--triangles <N>': 0 is not in 1.."),
+        (&["explain", "sphere", "0", "0", "--triangles", "0"], "0 is not in 1.."),
+        (&["vectors", "--count", "0"], "0 is not in 1.."),
         (&["energy", "none.tri"], "none.tri: cannot be read"),
         (&["compare", "a", "b", "sphere", "--library", "x.lib"], "--energy <N>"),
     ] {

@@ -80,3 +80,4 @@ mod vectors;
 mod vectors_options;
 mod verdicts;
 mod verify;
+mod whole_polygons;

@@ -219,7 +219,7 @@ fn what_cannot_be_shown_is_refused_in_words() {
         (many, &["sphere", "permitted: at most 200000", "--triangles", "--from"][..]),
         ([&screen[..], &["--from", "99999999"]].concat(), &["--from 99999999", "permitted: 0 to "]),
         ([&screen[..], &["--from", "9", "--to", "5"]].concat(), &["--from 9", "permitted: 0 to 5"]),
-        ([&screen[..], &["--triangles", "0"]].concat(), &["sphere: nothing was drawn"]),
+        ([&screen[..], &["--triangles", "0"]].concat(), &["'0' for '--triangles <N>': 0 is not in 1.."]),
         (vec!["replay", "empty.tri", "--out", "o.html"], &["empty.tri: nothing was drawn"]),
         (vec!["replay", "t.tri", "--out", "o.txt"], &["--out o.txt: the file must end in .html or .json"]),
         (vec!["replay", "spere", "--out", "o.html"], &["spere", "sphere"]),

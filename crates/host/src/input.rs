@@ -8,7 +8,7 @@ use crate::port::sent;
 use crate::vertices::guard_band;
 use anyhow::{Context as _, Result, anyhow};
 use edgewalk_golden::Shading;
-use edgewalk_machine::Plan;
+use edgewalk_machine::{Counted, Plan};
 use edgewalk_scene::{
     Blending, Change, Frame, InputKind, Line, PixelMethod, Scene, Surface, Triangulated, triangle_file,
 };
@@ -185,6 +185,12 @@ pub fn in_triangles(frame: Frame, machine: &Plan) -> Result<Frame> {
         frame.changes.iter().map(|change| Change { after: before(change.after), ..*change }).collect();
     let triangles = triangles.into_owned();
     Ok(Frame { triangles, changes, polygons: Vec::new(), lines, host, ..frame })
+}
+
+/// How many triangles, polygons and lines a frame draws.
+#[must_use]
+pub fn counted(frame: &Frame) -> Counted {
+    Counted { triangles: frame.triangles.len(), polygons: frame.polygons.len(), lines: frame.lines.len() }
 }
 
 /// Twelve hex digits that stand for a frame of triangles: every bit of its vertices and of its state.

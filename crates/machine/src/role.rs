@@ -108,6 +108,11 @@ impl Role {
     }
 }
 
+/// The tokens of each triangle, line and polygon: of a polygon all up to the one that ends it.
+pub fn wholes(tokens: &[[PortVertex; 3]]) -> impl Iterator<Item = &[[PortVertex; 3]]> {
+    tokens.split_inclusive(|token| Role::of(token).ends())
+}
+
 /// The lines that are drawn of a token, and the pixel at which its values start; of a flat line x and y are exchanged.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Window {

@@ -47,11 +47,10 @@ class App {
   }
   about() {
     const { doc } = this;
-    const { name, triangles, of } = doc.scene;
-    const some = triangles === of ? `${triangles}` : `the first ${triangles} of ${of}`;
+    const { name, drawn } = doc.scene;
     const size = doc.store ? ` on ${doc.store.width}\u00d7${doc.store.height}` : "";
     const part = doc.from ? `cycles ${doc.from} to ${doc.from + doc.cycles - 1}` : `${doc.cycles} cycles`;
-    const text = `${name} \u00b7 ${some} triangle${of === 1 ? "" : "s"}${size} \u00b7 ${part} \u00b7 machine ${doc.machine.hash}`;
+    const text = `${name} \u00b7 ${drawn}${size} \u00b7 ${part} \u00b7 machine ${doc.machine.hash}`;
     setText(document.getElementById("about"), text);
     document.title = `${name}, edgewalk replay`;
     if (!doc.difference) return;

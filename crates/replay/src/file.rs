@@ -4,13 +4,13 @@ use crate::encode::Stream;
 use crate::lesson::{Lesson, Part, Step};
 use crate::record::map_channels;
 use crate::recording::Recording;
-use edgewalk_machine::{Activity, Plan, PortVertex};
+use edgewalk_machine::{Activity, Counted, Plan, PortVertex};
 use edgewalk_model::view::{Item, Register, Shape, Store, Structure, Table, UnitView};
 use serde_json::{Map, Value, json};
 use std::collections::BTreeSet;
 
 /// The format's name, and its version: another major number is another format.
-pub const FORMAT: (&str, [u32; 2]) = ("edgewalk-replay", [1, 1]);
+pub const FORMAT: (&str, [u32; 2]) = ("edgewalk-replay", [1, 2]);
 
 /// All that a page shows.
 pub struct Replay<'a> {
@@ -18,10 +18,12 @@ pub struct Replay<'a> {
     pub plan: &'a Plan,
     /// What was drawn.
     pub scene: &'a str,
-    /// The triangles drawn.
+    /// The tokens of what was drawn: triangles, lines, parts of polygons.
     pub triangles: &'a [[PortVertex; 3]],
+    /// How many triangles, polygons and lines they are.
+    pub drawn: Counted,
     /// How many there would have been.
-    pub of: usize,
+    pub of: Counted,
     /// The run.
     pub recording: &'a Recording,
     /// What ought to be, for tokens: more columns of a kind of token.
@@ -83,7 +85,9 @@ impl Replay<'_> {
         json!({
             "format": FORMAT.0,
             "version": FORMAT.1,
-            "scene": { "name": self.scene, "triangles": self.triangles.len(), "of": self.of },
+            "scene": {
+                "name": self.scene, "triangles": self.drawn.total(), "of": self.of.total(), "drawn": self.drawn_in_words(),
+            },
             "machine": { "hash": plan.hash(), "keys": keys(plan) },
             "from": self.recording.from,
             "cycles": self.recording.cycles,
@@ -114,6 +118,12 @@ impl Replay<'_> {
             "lesson": self.lesson.map_or_else(Vec::new, |lesson| lesson.steps.iter().map(step).collect()),
             "data": self.data(),
         })
+    }
+
+    /// What was drawn of how much: `the first 20 of 300 triangles`.
+    fn drawn_in_words(&self) -> String {
+        let Replay { drawn, of, .. } = *self;
+        if drawn == of { of.to_string() } else { format!("the first {}", drawn.part_of(of)) }
     }
 
     /// Numbers of the triangles that any unit works on.

@@ -1,6 +1,7 @@
 //! A frame as a list of passes: what is drawn by the same rules, and what changes between.
 
 use crate::frame::{Frame, Shadow};
+use crate::polygon::Primitive;
 use crate::rules::State;
 use std::ops::Range;
 
@@ -16,11 +17,23 @@ pub struct Pass {
 }
 
 impl Frame {
-    /// The first triangles alone, at most so many. Lines that follow them stay. The frame has no polygons.
+    /// The first triangles, polygons and lines in the order in which they are drawn, at most so many.
     #[must_use]
-    pub fn first(mut self, triangles: usize) -> Self {
+    pub fn first(mut self, most: usize) -> Self {
+        if most >= self.drawn() {
+            return self;
+        }
+        let (mut triangles, mut polygons) = (0, 0);
+        for primitive in self.primitives().into_iter().take(most) {
+            match primitive {
+                Primitive::Triangle(_) => triangles += 1,
+                Primitive::Polygon(_) => polygons += 1,
+                Primitive::Line(_) => {}
+            }
+        }
         self.triangles.truncate(triangles);
-        self.lines.retain(|line| line.after <= triangles);
+        self.polygons.truncate(polygons);
+        self.lines.truncate(most - triangles - polygons);
         if let Some(shading) = &mut self.shading {
             shading.triangles.truncate(triangles);
         }
@@ -76,8 +89,24 @@ impl Frame {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::frame::{Line, Polygon};
     use crate::rules::{Blending, Change};
     use crate::vertex::Triangle;
+
+    #[test]
+    fn the_first_are_first_in_drawing_order() {
+        let mut frame = Frame::new(4, 4);
+        frame.triangles = vec![Triangle::default(); 3];
+        // t p t l p t
+        frame.polygons = [1, 2].map(|after| Polygon { contours: Vec::new(), after }).to_vec();
+        frame.lines = vec![Line { ends: Default::default(), after: 3 }];
+        let of = |most| {
+            let first = frame.clone().first(most);
+            [first.triangles.len(), first.polygons.len(), first.lines.len()]
+        };
+        let counts = [[0, 0, 0], [1, 0, 0], [1, 1, 0], [2, 1, 0], [2, 1, 1], [2, 2, 1], [3, 2, 1], [3, 2, 1]];
+        counts.iter().enumerate().for_each(|(most, counts)| assert_eq!(of(most), *counts, "{most}"));
+    }
 
     #[test]
     fn every_primitive_has_one_pass() {

@@ -27,9 +27,9 @@ use std::path::PathBuf;
 pub struct Args {
     #[command(flatten)]
     source: Source,
-    /// Draw this many triangles of the input; all of them if left out
-    #[arg(long, value_name = "N")]
-    triangles: Option<usize>,
+    /// Draw this many triangles, polygons and lines of the input; all of them if left out
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
+    triangles: Option<u64>,
     /// Stop after this many cycles
     #[arg(long, value_name = "N", default_value_t = 1_000_000, value_parser = clap::value_parser!(u64).range(1..))]
     cycles: u64,
@@ -56,12 +56,12 @@ fn megahertz(text: &str) -> Result<f64, String> {
 pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
     let machine = args.source.machine(machine)?;
     let cells = CellEnergy::new(args.library.as_deref(), args.cache.as_deref(), args.limit)?;
-    let port = to_port(&args.source.frame(&machine)?, &machine)?;
-    let triangles = args.triangles.map_or(port.triangles.len(), |most| most.min(port.triangles.len()));
-    let size = (machine.width, machine.height);
-    Verdict::drew(triangles as u64).or_nothing(&args.source.input, 0, size)?;
-    let bar = progress::bar(triangles as u64, "triangles", talk.quiet);
-    let drawing = Drawing { machine: &machine, port: &port, triangles, cycles: args.cycles };
+    let first = args.triangles.map_or(usize::MAX, |most| usize::try_from(most).unwrap_or(usize::MAX));
+    let port = to_port(&args.source.frame(&machine)?.first(first), &machine)?;
+    let tokens = port.triangles.len() as u64;
+    Verdict::drew(tokens).or_nothing(&args.source.input, 0, (machine.width, machine.height))?;
+    let bar = progress::bar(tokens, "tokens", talk.quiet);
+    let drawing = Drawing { machine: &machine, port: &port, cycles: args.cycles };
     let report = cells.measure(&drawing, args.mhz, &|| bar.inc(1))?;
     bar.finish_and_clear();
     talk.say(|| document("energy", &report), || report.text())?;

@@ -21,9 +21,9 @@ use edgewalk_host::input::in_triangles;
 pub struct Args {
     #[command(flatten)]
     source: Source,
-    /// Draws the first N triangles of the input; all of them if left out
-    #[arg(long, value_name = "N")]
-    triangles: Option<usize>,
+    /// Draws the first N triangles, polygons and lines of the input; all of them if left out
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
+    triangles: Option<u64>,
     /// Column, from the left
     #[arg(value_name = "X")]
     x: u32,
@@ -43,7 +43,9 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
         (None, Some(outlined)) => (in_triangles(outlined.clone(), &machine)?, None),
         (None, None) => (args.source.frame(&machine)?, None),
     };
-    let frame = frame.first(args.triangles.unwrap_or(usize::MAX));
+    let first = args.triangles.map_or(usize::MAX, |most| usize::try_from(most).unwrap_or(usize::MAX));
+    let whole = first >= frame.drawn();
+    let frame = frame.first(first);
     let (x, y) = (args.x, args.y);
     if x >= machine.width || y >= machine.height {
         let (w, h) = (machine.width - 1, machine.height - 1);
@@ -54,7 +56,8 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
         frame: &frame,
         scene: scene.as_ref().map(|(scene, surface)| (scene, surface)),
         order: order.as_ref(),
-        outlined: outlined.as_ref(),
+        // Of a part the polygons are those that the frame has.
+        outlined: outlined.as_ref().filter(|_| whole),
     };
     let explanation = explain(&input, (x, y))?;
     talk.say(|| document("explain", &explanation), || explanation.text(machine.color.bits))?;

@@ -10,7 +10,9 @@ use crate::shell::quoted;
 use crate::verdict::Verdict;
 use anyhow::{Context, Result, anyhow};
 use edgewalk_files::Staging;
-use edgewalk_machine::{Plan, PortVertex};
+use edgewalk_host::input::counted;
+use edgewalk_machine::counted::number;
+use edgewalk_machine::{Counted, Plan, PortVertex};
 use edgewalk_model::{DrawState, Stalls, Waits};
 use edgewalk_replay::lesson::polygon::{polygon, polygon_lesson};
 use edgewalk_replay::lesson::{SCREEN, triangle};
@@ -32,9 +34,9 @@ use std::path::PathBuf;
 pub struct Args {
     #[command(flatten)]
     source: Source,
-    /// Draw the first N triangles of the input
-    #[arg(long, value_name = "N", default_value_t = 20)]
-    triangles: usize,
+    /// Draw the first N triangles, polygons and lines of the input
+    #[arg(long, value_name = "N", default_value_t = 20, value_parser = clap::value_parser!(u64).range(1..))]
+    triangles: u64,
     /// First cycle shown
     #[arg(long, value_name = "C", default_value_t = 0)]
     from: u64,
@@ -77,11 +79,12 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
     }
     let name = args.out.file_name().and_then(|n| n.to_str()).context("--out: no file name")?;
     let shown = if args.lesson { taught(machine)? } else { drawn(args, machine)? };
-    let Shown { machine, scene, triangles, of, recording, truth, command, lesson } = &shown;
+    let Shown { machine, scene, triangles, drawn, of, recording, truth, command, lesson } = &shown;
     let replay = Replay {
         plan: machine,
         scene,
         triangles,
+        drawn: *drawn,
         of: *of,
         recording,
         truth,
@@ -99,16 +102,14 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
     talk.say(
         || {
             let report = json!({
-                "file": args.out, "cycles": cycles, "triangles": triangles.len(), "bytes": bytes, "hash": machine.hash(),
+                "file": args.out, "cycles": cycles, "triangles": drawn.total(), "bytes": bytes, "hash": machine.hash(),
             });
             document("replay-report", report)
         },
         || {
-            let drawn = triangles.len();
-            format!(
-                "{cycles} cycles, {drawn} of {of} triangles, {bytes} bytes -> {}: open it in a browser",
-                args.out.display()
-            )
+            let what = if kind == "json" { "the recording" } else { "open it in a browser" };
+            let (cycles, drawn) = (number(cycles.into(), "cycle"), drawn.part_of(*of));
+            format!("{cycles}, {drawn}, {bytes} bytes -> {}: {what}", args.out.display())
         },
     )?;
     Ok(Verdict::Pass)
@@ -120,8 +121,10 @@ struct Shown {
     scene: String,
     /// Of the lights' own passes, then of the picture.
     triangles: Vec<[PortVertex; 3]>,
+    /// How many triangles, polygons and lines they are.
+    drawn: Counted,
     /// How many there would be without `--triangles`.
-    of: usize,
+    of: Counted,
     recording: Recording,
     truth: Vec<Truth>,
     /// What explains a pixel of it.
@@ -132,8 +135,9 @@ struct Shown {
 /// The input on the machine.
 fn drawn(args: &Args, asked_for: &MachineArgs) -> Result<Shown> {
     let (machine, frame) = args.source.on_its_screen(asked_for)?;
-    let (of, all) = (frame.triangles.len(), frame.drawn());
-    let frame = frame.first(args.triangles);
+    let of = counted(&frame);
+    let frame = frame.first(usize::try_from(args.triangles).unwrap_or(usize::MAX));
+    let drawn = counted(&frame);
     let port = to_port(&frame, &machine)?;
     let (count, size) = (port.triangles.len() as u64, (machine.width, machine.height));
     Verdict::drew(count).or_nothing(&args.source.input, 0, size)?;
@@ -148,15 +152,17 @@ fn drawn(args: &Args, asked_for: &MachineArgs) -> Result<Shown> {
     let ids = [vec![-1; of_lights], port.ids.clone()].concat();
     let truth = truth::truth(&machine, &frame, &ids, recording.view.tokens());
     let (scene, triangles) = (args.source.input.clone(), triangles.into_owned());
-    let command = Some(explaining(args, asked_for, of));
-    Ok(Shown { machine, scene, triangles, of: all + of_lights, recording, truth, command, lesson: None })
+    let command = Some(explaining(args, asked_for, of.total()));
+    let with_lights = |counted: Counted| Counted { triangles: counted.triangles + of_lights, ..counted };
+    let (drawn, of) = (with_lights(drawn), with_lights(of));
+    Ok(Shown { machine, scene, triangles, drawn, of, recording, truth, command, lesson: None })
 }
 
-/// The command that explains a pixel of what is drawn, of an input with `of` triangles. It ends with `{x} {y}`.
+/// The command that explains a pixel of what is drawn, of an input with `of` triangles, polygons and lines. It ends with `{x} {y}`.
 fn explaining(args: &Args, machine: &MachineArgs, of: usize) -> String {
     let mut words: Vec<String> = ["edgewalk", "explain"].map(str::to_owned).to_vec();
     words.extend(machine.words().into_iter().map(str::to_owned));
-    if args.triangles < of {
+    if args.triangles < of as u64 {
         words.extend(["--triangles".to_owned(), args.triangles.to_string()]);
     }
     words.extend(args.source.words());
@@ -181,8 +187,9 @@ fn taught(machine: &MachineArgs) -> Result<Shown> {
     Ok(Shown {
         machine,
         scene: "lesson".to_owned(),
+        drawn: Counted::of(&tokens),
+        of: Counted::of(&tokens),
         triangles: tokens,
-        of: 1,
         recording,
         truth: Vec::new(),
         command: None,

@@ -8,7 +8,8 @@ use crate::verdict::Verdict;
 use anyhow::{Context, Result};
 use edgewalk_explore::size::{Answer, Breaker, ChannelSize, Size, size};
 use edgewalk_files::Staging;
-use edgewalk_machine::Plan;
+use edgewalk_host::input::counted;
+use edgewalk_machine::{Counted, Plan};
 use edgewalk_scene::triangle_file;
 use serde_json::{Value, json};
 use std::fmt::Write as _;
@@ -69,7 +70,7 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
             own.push(name);
         }
     }
-    let of = Page { args, machine: &machine, triangles: frame.triangles.len(), found: &found };
+    let of = Page { args, machine: &machine, counted: counted(&frame), found: &found };
     let json = document("size", of.value()?)?;
     out.write(REPORT, &json)?;
     own.push(REPORT.to_owned());
@@ -81,7 +82,7 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
 struct Page<'p> {
     args: &'p Args,
     machine: &'p Plan,
-    triangles: usize,
+    counted: Counted,
     found: &'p Size,
 }
 
@@ -92,7 +93,8 @@ impl Page<'_> {
             "machine": self.machine.hash(),
             "width": self.machine.width,
             "height": self.machine.height,
-            "triangles": self.triangles,
+            "triangles": self.counted.triangles,
+            "polygons": self.counted.polygons,
         });
         let found = serde_json::to_value(self.found)?;
         for (key, found) in found.as_object().into_iter().flatten() {
@@ -107,9 +109,9 @@ impl Page<'_> {
         let Page { machine, found, .. } = self;
         _ = writeln!(
             t,
-            "{}: {} triangles on {}x{}, machine {}, errors of at most {} LSB",
+            "{}: {} on {}x{}, machine {}, errors of at most {} LSB",
             self.args.source.input,
-            self.triangles,
+            self.counted,
             machine.width,
             machine.height,
             machine.hash(),

@@ -11,7 +11,8 @@ use crate::verdict::Verdict;
 use anyhow::{Context, Result, anyhow, ensure};
 use edgewalk_files::Staging;
 use edgewalk_lockstep::StallKind;
-use edgewalk_machine::{Activity, Pass, Plan};
+use edgewalk_machine::counted::number;
+use edgewalk_machine::{Activity, Counted, Pass, Plan, wholes};
 use edgewalk_netlist::{FstTrace, Labels, Simulator, Transitions, UnitTransitions, VcdTrace};
 use edgewalk_vectors::{Runs, Unit};
 use serde_json::json;
@@ -44,11 +45,11 @@ pub struct Args {
     /// Output file, .vcd, .fst or .saif
     #[arg(long, value_name = "FILE")]
     out: PathBuf,
-    /// Draw this many triangles of the input
-    #[arg(long, default_value_t = 10)]
-    triangles: usize,
+    /// Draw this many triangles, polygons and lines of the input
+    #[arg(long, default_value_t = 10, value_parser = clap::value_parser!(u64).range(1..))]
+    triangles: u64,
     /// Stop after this many cycles of waveform
-    #[arg(long, default_value_t = 20_000)]
+    #[arg(long, default_value_t = 20_000, value_parser = clap::value_parser!(u64).range(1..))]
     cycles: u64,
     /// First cycle of the waveform; times are those of the whole run
     #[arg(long, value_name = "CYCLE", conflicts_with_all = ["pixel", "triangle"])]
@@ -63,7 +64,7 @@ pub struct Args {
     /// for Surfer
     #[arg(long)]
     views: bool,
-    /// The cycles from the entry of this triangle to its last write; 0 is the first triangle
+    /// The cycles from the entry of this triangle, polygon or line to its last write; 0 is the first one
     #[arg(long, value_name = "N")]
     triangle: Option<u32>,
 }
@@ -84,10 +85,10 @@ enum Wave {
 /// Runs the command.
 pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
     let machine = args.source.machine(machine)?;
-    let port = to_port(&args.source.frame(&machine)?, &machine)?;
-    let traced = port.triangles.len().min(args.triangles);
+    let frame = args.source.frame(&machine)?.first(usize::try_from(args.triangles).unwrap_or(usize::MAX));
+    let port = to_port(&frame, &machine)?;
     let size = (machine.width, machine.height);
-    Verdict::drew(traced as u64).or_nothing(&args.source.input, 0, size)?;
+    Verdict::drew(port.triangles.len() as u64).or_nothing(&args.source.input, 0, size)?;
     let kind = args.out.extension().and_then(|e| e.to_str()).unwrap_or_default();
     if !KINDS.contains(&kind) {
         return Err(anyhow!("--out {}: the file must end in .vcd, .fst or .saif", args.out.display()));
@@ -106,8 +107,8 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
     let mut failure: Result<()> = Ok(());
     let mut there = BTreeSet::new();
     let mut cycle = 0;
-    let triangles = port.triangles.iter().take(args.triangles).copied();
-    let passes = [Pass { triangles: traced, ..Pass::all(port.state()?) }];
+    let triangles = port.triangles.iter().copied();
+    let passes = [Pass { triangles: port.triangles.len(), ..Pass::all(port.state()?) }];
     edgewalk_lockstep::render_rtl_with(&machine, triangles, &passes, port.words(), |sim| {
         if cycle == 0 && args.views {
             let changing = sim.signals().filter(|(_, signal)| !sim.is_constant(*signal));
@@ -151,7 +152,7 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
         || {
             let table = units.as_deref().map(|units| table(units, cycles)).unwrap_or_default();
             let views = if args.views { "; views: .gtkw, .sucl" } else { "" };
-            format!("{table}{cycles} cycles -> {}{views}", args.out.display())
+            format!("{table}{} -> {}{views}", number(cycles, "cycle"), args.out.display())
         },
     )?;
     Ok(Verdict::Pass)
@@ -211,8 +212,7 @@ fn window(args: &Args, machine: &Plan, port: &PortFrame) -> Result<Range<u64>> {
         !machine.shade.is_there(),
         "--pixel and --triangle: the machine shades at each pixel; permitted with shade.kind = none; --from and --to take any machine"
     );
-    let mut suite = of_input(&args.source.input, machine, port, None)?;
-    suite.cases.iter_mut().for_each(|case| case.triangles.truncate(args.triangles));
+    let suite = of_input(&args.source.input, machine, port, None)?;
     let run = Runs::new(machine, &suite, suite.state).capture(Unit::MACHINE, StallKind::None);
     let memories = run.interface.memories.iter().filter(|memory| ["depth", "color"].contains(&memory.name));
     let writes = memories.filter_map(|memory| memory.write).map(|write| (write, &run.links[write.link]));
@@ -232,16 +232,21 @@ fn window(args: &Args, machine: &Plan, port: &PortFrame) -> Result<Range<u64>> {
         let at: Vec<u64> = of.collect();
         let (Some(first), Some(last)) = (at.iter().min(), at.iter().max()) else {
             return Err(anyhow!(
-                "--pixel {x} {y}: none of the {} triangles writes it; take another, or more --triangles",
-                suite.triangles().count()
+                "--pixel {x} {y}: nothing of {} writes it; take another, or more --triangles",
+                Counted::of(&port.triangles)
             ));
         };
         return Ok(cycles(first.saturating_sub(BEFORE), last + 2));
     }
     let triangle = args.triangle.unwrap_or(0);
-    let enters = run.links[0].triangles.iter().position(|entered| *entered == triangle);
+    // Tokens enter; a write has the number of the triangle, polygon or line.
+    let first = wholes(&port.triangles).take(triangle as usize).map(<[_]>::len).sum::<usize>();
+    let enters = run.links[0].triangles.iter().position(|entered| *entered as usize == first);
     let Some(enters) = enters.map(|place| run.links[0].cycles[place]) else {
-        return Err(anyhow!("--triangle {triangle}: permitted: 0 to {}", suite.triangles().count() - 1));
+        return Err(anyhow!(
+            "--triangle {triangle}: permitted: 0 to {}",
+            wholes(&port.triangles).count() - 1
+        ));
     };
     let of = writes.flat_map(|(_, link)| {
         let all = link.triangles.iter().zip(&link.cycles);

@@ -36,7 +36,7 @@ pub struct Args {
     /// Set the keys of the machine that the input asks for; --set has the last word
     #[arg(long, requires = "input")]
     adapt: bool,
-    /// Take this many triangles of the input, evenly spread; all of them if left out
+    /// Take this many triangles, polygons and lines of the input, evenly spread; all of them if left out
     #[arg(long, requires = "input", value_parser = clap::value_parser!(u64).range(1..))]
     triangles: Option<u64>,
     /// Suites: hazards, corners, random, sphere, depth_never to depth_always, depth_unwritten; all suites of the units

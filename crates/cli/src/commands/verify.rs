@@ -46,7 +46,7 @@ use std::time::Duration;
 pub struct Args {
     #[command(flatten)]
     source: Source,
-    /// Take this many triangles of the input, evenly spread
+    /// Take this many triangles, polygons and lines of the input, evenly spread
     #[arg(long, default_value_t = 50, value_parser = clap::value_parser!(u64).range(1..))]
     triangles: u64,
     /// Stalls by the bench: none, mixed, late; the suite's own if left out

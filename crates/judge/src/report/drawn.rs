@@ -1,7 +1,7 @@
 //! What was drawn of an input, and what the host did to it before.
 
 use edgewalk_host::raster::Raster;
-use edgewalk_machine::Plan;
+use edgewalk_machine::{Counted, Plan};
 use edgewalk_scene::Host;
 use serde::ser::{Serialize, SerializeMap as _, Serializer};
 use std::fmt::Write as _;
@@ -69,18 +69,11 @@ impl Drawn {
 
     /// As lines of text.
     pub(super) fn in_lines(&self) -> String {
-        let Drawn { input, machine, width, height, triangles, fragments, writes, .. } = self;
-        let polygons = match self.polygons {
-            0 => String::new(),
-            count => format!(" and {count} polygons"),
-        };
-        let segments = match self.lines {
-            0 => String::new(),
-            count => format!(" and {count} lines"),
-        };
-        let mut t = format!(
-            "{input}: {triangles} triangles{polygons}{segments} on {width}x{height}, machine {machine}\n"
-        );
+        let Drawn { input, machine, width, height, fragments, writes, .. } = self;
+        let [triangles, polygons, lines] =
+            [self.triangles, self.polygons, self.lines].map(|count| count as usize);
+        let counted = Counted { triangles, polygons, lines };
+        let mut t = format!("{input}: {counted} on {width}x{height}, machine {machine}\n");
         t += &host_in_words(&self.host);
         // Writing to a string cannot fail.
         _ = writeln!(t, "fragments {fragments}, writes {writes}");

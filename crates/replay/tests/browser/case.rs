@@ -1,7 +1,7 @@
 //! What is shown: an icosahedron on four machines, its page in a file, and the model run anew beside it.
 
 use edgewalk_machine::{
-    DrawState, Machine, Maps, Pass, Plan, PortVertex, Record, Shading, first_of_picture, steps,
+    Counted, DrawState, Machine, Maps, Pass, Plan, PortVertex, Record, Shading, first_of_picture, steps,
 };
 use edgewalk_model::{Frame, Rig, Stalls, View, for_channels, render_passes};
 use edgewalk_replay::{Recording, Replay, Rules, Window, page, record_passes};
@@ -203,7 +203,8 @@ impl Case {
             plan: &self.plan,
             scene: if self.plan.polygon.is_there() { "polygon" } else { "icosahedron" },
             triangles: &self.triangles,
-            of: self.triangles.len(),
+            drawn: Counted::of(&self.triangles),
+            of: Counted::of(&self.triangles),
             recording,
             truth: &[],
             command: Some("edgewalk explain icosahedron.obj {x} {y}".to_owned()),

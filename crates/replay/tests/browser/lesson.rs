@@ -3,7 +3,7 @@
 use crate::case::file;
 use crate::chromium::Browser;
 use crate::layout::LAYOUT;
-use edgewalk_machine::Machine;
+use edgewalk_machine::{Counted, Machine};
 use edgewalk_model::{DrawState, Stalls};
 use edgewalk_replay::lesson::polygon::{polygon, polygon_lesson};
 use edgewalk_replay::lesson::{SCREEN, triangle};
@@ -59,7 +59,8 @@ pub fn lesson_page(machine: Machine) -> String {
         plan: &plan,
         scene: "lesson",
         triangles: &corners,
-        of: 1,
+        drawn: Counted::of(&corners),
+        of: Counted::of(&corners),
         recording: &recording,
         truth: &[],
         command: None,

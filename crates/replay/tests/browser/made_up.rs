@@ -100,7 +100,7 @@ fn machine(rng: &mut Pcg64Mcg) -> (Value, Vec<(Shape, Column)>) {
     let tokens = json!([{ "name": "kind", "title": "tokens", "count": 3, "swatch": null, "truth": [],
         "fields": [{ "name": fields[0], "shape": number(8), "brief": true }, { "name": fields[1], "shape": number(56), "brief": true }] }]);
     let doc = json!({
-        "format": "edgewalk-replay", "version": [1, 0], "scene": { "name": "made up", "triangles": 0, "of": 0 },
+        "format": "edgewalk-replay", "version": [1, 0], "scene": { "name": "made up", "triangles": 0, "of": 0, "drawn": "0 triangles" },
         "machine": { "hash": "0", "keys": [] }, "from": 0, "cycles": CYCLES,
         "causes": [{ "name": "one", "letter": "O", "means": "first" }, { "name": "two", "letter": "T", "means": "second" }],
         "cause": cause, "units": units, "links": declared, "registers": made.registers, "tokens": tokens, "store": null,

@@ -1,14 +1,14 @@
 //! The triangles of an input as a suite, with what the memories behind the units hold for them.
 
 use super::{Suite, Triangle, Words};
-use edgewalk_machine::{Plan, Shading};
+use edgewalk_machine::{Plan, Shading, wholes};
 use edgewalk_model::DrawState;
 use std::path::Path;
 
 /// What an input sends to the machine.
 #[derive(Clone, Copy)]
 pub struct Sent<'a> {
-    /// Triangles in drawing order.
+    /// Triangles, polygons and lines in drawing order, as tokens.
     pub triangles: &'a [Triangle],
     /// The rules that all of them are drawn by.
     pub state: DrawState,
@@ -34,8 +34,8 @@ pub struct TooManyRecords {
 }
 
 impl Suite {
-    /// The triangles of an input, `triangles` of them, spread evenly; all of them if none is said. The last part of `input`, without
-    /// its extension, is the suite's name.
+    /// The triangles, polygons and lines of an input, `wanted` of them, spread evenly, each whole; all of them if none is said. The
+    /// last part of `input`, without its extension, is the suite's name.
     ///
     /// # Errors
     /// More triangles than there are records.
@@ -43,15 +43,15 @@ impl Suite {
         machine: &Plan,
         input: &str,
         sent: &Sent,
-        triangles: Option<u64>,
+        wanted: Option<u64>,
     ) -> Result<Suite, TooManyRecords> {
         let name = Path::new(input).file_stem().map_or_else(|| input.into(), |stem| stem.to_string_lossy());
         // It becomes the name of a directory.
         let name: String =
             name.chars().map(|c| if c.is_alphanumeric() || "-_".contains(c) { c } else { '_' }).collect();
-        let wanted = triangles.map_or(usize::MAX, |n| usize::try_from(n).unwrap_or(usize::MAX));
-        let every = sent.triangles.len().div_ceil(wanted).max(1);
-        let triangles: Vec<Triangle> = sent.triangles.iter().step_by(every).copied().collect();
+        let wanted = wanted.map_or(usize::MAX, |n| usize::try_from(n).unwrap_or(usize::MAX));
+        let every = wholes(sent.triangles).count().div_ceil(wanted).max(1);
+        let triangles: Vec<Triangle> = wholes(sent.triangles).step_by(every).flatten().copied().collect();
         Ok(Suite {
             state: sent.state,
             words: words(machine, sent, every)?,
@@ -60,7 +60,7 @@ impl Suite {
     }
 }
 
-/// Memory words of a sample: every n-th of the triangles.
+/// Memory words of a sample: every n-th of the triangles, which are all that a shaded frame has.
 fn words(machine: &Plan, sent: &Sent, every: usize) -> Result<Words, TooManyRecords> {
     let mut words = Words::new();
     if let Some(map) = sent.map {

@@ -2,6 +2,7 @@
 
 use anyhow::Result;
 use edgewalk_lockstep::{Difference, Rig, model};
+use edgewalk_machine::Counted;
 use edgewalk_replay::{LIMIT, Plane, Recorder, Replay, page};
 use edgewalk_vectors::{Suite, Trace};
 
@@ -36,7 +37,8 @@ pub fn page(suite: &Suite, trace: &Trace, difference: &Difference) -> Result<Opt
         plan,
         scene: &suite.name,
         triangles: &triangles,
-        of: triangles.len(),
+        drawn: Counted::of(&triangles),
+        of: Counted::of(&triangles),
         recording: &recording,
         truth: &[],
         command: None,
