@@ -217,6 +217,29 @@ fn shadows_cost_passes_and_maps() {
     assert!(maps > 0 && row["cycles"].as_u64() > told["machines"][0]["inputs"][0]["cycles"].as_u64());
 }
 
+/// What the note under the table says of the presets.
+#[test]
+fn presets_are_near_the_sum_of_their_units() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("a.tri"), TRIANGLE).unwrap();
+    let presets = edgewalk_machine::presets::PRESETS.iter().map(|preset| preset.0).collect::<Vec<_>>();
+    let with = presets[2..].iter().flat_map(|name| ["--with", *name]).collect::<Vec<_>>();
+    // Textbook differs from golden, as it should, so the exit code is 1.
+    let words = [&["compare", presets[0], presets[1], "a.tri", "--json"][..], &with].concat();
+    let output = edgewalk(folder.path(), &words).output().unwrap();
+    let told: Value = serde_json::from_slice(&output.stdout).unwrap();
+    let lut4 = |of: &Value| of.pointer("/estimate/est_lut4/value").and_then(Value::as_f64).unwrap();
+    let machines = told["machines"].as_array().unwrap();
+    for machine in machines {
+        let (units, whole) =
+            (machine["units"].as_array().unwrap().iter().map(lut4).sum::<f64>(), lut4(machine));
+        let off = 100.0 * (whole - units) / units;
+        println!("{}: {whole} LUT4, units {units}, {off:.2} %", machine["machine"]);
+        assert!(whole > 1000.0 && off.abs() < 1.0, "{machine}");
+    }
+    assert_eq!(machines.len(), 8);
+}
+
 #[test]
 fn tables_that_cannot_be_made_are_refused() {
     let folder = tempfile::tempdir().unwrap();
@@ -231,6 +254,10 @@ fn tables_that_cannot_be_made_are_refused() {
             "no machine draws any of the inputs",
         ),
         (&["default", "default", "sphere", "--page", "none/p.html"], "--page none/p.html"),
+        (
+            &["default", "default", "sphere", "--energy", "5", "--stalls", "dram:miss=20"],
+            "refresh=780,busy=13: the energy is that of a memory that never makes the machine wait",
+        ),
     ] {
         let (code, error) = run(folder.path(), &[&["compare"], arguments, &SCREEN[..]].concat());
         assert!(code == Some(2) && error.contains(said), "{arguments:?}: {error}");

@@ -78,8 +78,8 @@ pub struct Args {
     /// Stalls of both memories: none, fixed, random, dram, with parameters as fixed:rd=2
     #[arg(long, value_name = "KIND", default_value = "none")]
     stalls: Waits,
-    /// In the table: energy of the first N triangles of each input in standard cells, by unit, with the tools of
-    /// `edgewalk energy`
+    /// In the table: energy of the first N triangles, polygons and lines of each input in standard cells, by unit, with the
+    /// tools of `edgewalk energy`; not with --stalls
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
     energy: Option<u32>,
     /// With --energy: a library of cells in the Liberty format, instead of OSU's for 0.18 um

@@ -131,6 +131,12 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
             "--adapt: not permitted for a table of machines, as each input would change them; set the keys behind the machines' names"
         ));
     }
+    if let (Some(triangles), false) = (args.energy, args.stalls == Waits::Never) {
+        return Err(anyhow!(
+            "--energy {triangles} --stalls {}: the energy is that of a memory that never makes the machine wait; leave out one of them",
+            args.stalls
+        ));
+    }
     let names = [&args.a, &args.b].into_iter().chain(&args.with);
     let columns = names.map(|name| Column::new(name, machine)).collect::<Result<Vec<_>>>()?;
     let shaded = Shaded::Corners(Shading::Gouraud);

@@ -146,7 +146,8 @@ pub fn text(told: &Value) -> String {
 }
 
 /// What the figures are.
-pub const NOTE: &str = "est_*: estimates on an iCE40, by unit alone; a machine is less than the sum of its units. Bits of memory: outside the machine.\n\
+pub const NOTE: &str = "est_*: estimates on an iCE40, of each unit alone and of the machine whole; LUT4 of a preset lie within 1 % of the sum of its units.\n\
+    Bits of memory: outside the machine.\n\
     Shading error: distance from the shading equation at each pixel, LSB of 8 bits; of shadows, from the equation with shadows by rays.\n\
     Error of the form: distance from the form of that equation that SHADE draws: highlights of N·H, in Phong a viewer far away.\n\
     Energy: of the first triangles, in cells for 0.18 um without wires; it compares machines, and is no promise of a chip.\n";
