@@ -69,7 +69,7 @@ pub fn check(frame: &Frame, machine: &Plan) -> Result<()> {
         ""
     };
     Err(anyhow!(
-        "{}; give {}, or --adapt, which sets what is asked for unless --set names the key{golden}",
+        "{}; add {}, or --adapt, which sets what is asked for unless --set names the key{golden}",
         whys.join("; "),
         settings.join(" ")
     ))
