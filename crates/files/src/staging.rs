@@ -9,6 +9,7 @@ use anyhow::{Context, Result, anyhow};
 use std::collections::BTreeSet;
 use std::fs::{self, File};
 use std::io::{self, BufWriter, Write as _};
+use std::os::unix::fs::FileTypeExt as _;
 use std::path::{Path, PathBuf};
 
 /// Files on their way into a folder.
@@ -29,7 +30,16 @@ impl Staging {
     }
 
     /// A new file of that name (which may contain folders).
+    ///
+    /// # Errors
+    /// A pipe, socket or device stands in its place, or a link to one: such are never replaced. A link to a file is.
     pub fn create(&self, name: &str) -> Result<BufWriter<File>> {
+        if let Some(kind) = special(&self.target.join(name)) {
+            return Err(anyhow!(
+                "{}: a {kind} stands there; permitted: a regular file or a new name",
+                self.name(name)
+            ));
+        }
         let file = self.scratch.create(&Path::new(NEW).join(name));
         Ok(BufWriter::with_capacity(1 << 16, file.with_context(|| self.name(name))?))
     }
@@ -70,7 +80,7 @@ impl Staging {
         let stale = own.iter().map(|name| PathBuf::from(name.as_ref())).filter(|name| {
             let there = fs::symlink_metadata(self.target.join(name));
             !names.contains(name)
-                && there.is_ok_and(|there| !there.is_dir())
+                && there.is_ok_and(|there| there.is_file() || there.is_symlink())
                 && link_on_the_way(&self.target, name).is_none()
         });
         let stale: Vec<PathBuf> = stale.collect();
@@ -90,6 +100,20 @@ impl Staging {
                 Err(error)
             }
         }
+    }
+}
+
+/// The kind of what stands there, behind links too, if it is neither file nor folder.
+fn special(path: &Path) -> Option<&'static str> {
+    let kind = fs::metadata(path).ok()?.file_type();
+    if kind.is_file() || kind.is_dir() {
+        None
+    } else if kind.is_fifo() {
+        Some("pipe")
+    } else if kind.is_socket() {
+        Some("socket")
+    } else {
+        Some("device")
     }
 }
 
