@@ -79,3 +79,32 @@ fn the_demo_is_as_readme_says() {
     let bar = &map[485 * width..486 * width];
     assert_eq!((bar[8], bar[631]), ([70, 150, 255], [255, 150, 30]), "ends of the scale");
 }
+
+/// The command that the demo prints shows the demo's input on the demo's machine, whatever a shell makes of its words.
+#[test]
+fn the_printed_replay_is_of_the_same_machine() {
+    let folder = tempfile::tempdir().unwrap();
+    let text = "size 16 12\nextra 1\nT 0 0 0 1 0 0 0  14 0 0 0 1 0 0  0 9 1 0 0 1 0\nX 0 0 1\n";
+    std::fs::write(folder.path().join("a b.tri"), text).unwrap();
+    let program = Path::new(env!("CARGO_BIN_EXE_edgewalk"));
+    let path = format!("{}:{}", program.parent().unwrap().display(), std::env::var("PATH").unwrap());
+    let shell = |command: &str| {
+        let mut shell = Command::new("sh");
+        shell.args(["-c", command]).current_dir(folder.path()).env("PATH", &path);
+        let output = shell.output().unwrap();
+        assert_eq!(output.status.code(), Some(0), "{command}: {}", String::from_utf8_lossy(&output.stderr));
+        String::from_utf8(output.stdout).unwrap()
+    };
+    let demo = "edgewalk demo --machine up5k --set memory.latency=5 --adapt --out 'd d'";
+    let printed = shell(&format!("{demo} 'a b.tri'"));
+    let command = printed.lines().find_map(|line| line.strip_prefix("at work   ")).unwrap();
+    let replayed: Value = serde_json::from_str(&shell(&format!("{command} --json"))).unwrap();
+    let report: Value =
+        serde_json::from_str(&std::fs::read_to_string(folder.path().join("d d/report.json")).unwrap())
+            .unwrap();
+    assert!(report["machine"].is_string() && replayed["hash"] == report["machine"], "{command}");
+    assert_eq!(replayed["file"], "d d/replay.html");
+    // The standard input has been read.
+    let printed = shell(&format!("{demo} - <'a b.tri'"));
+    assert!(printed.contains("\nvectors   ") && !printed.contains("at work"), "{printed}");
+}

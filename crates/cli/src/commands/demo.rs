@@ -6,6 +6,7 @@ use crate::engine::Engine;
 use crate::input::{Source, to_port};
 use crate::machine_args::MachineArgs;
 use crate::pictures::{FILES, pictures};
+use crate::shell::quoted;
 use crate::suites;
 use crate::talk::{self, Talk};
 use crate::verdict::Verdict;
@@ -13,6 +14,7 @@ use anyhow::Result;
 use edgewalk_explain::accumulators::depth_error_over_bound;
 use edgewalk_files::{Staging, picture};
 use edgewalk_model::Waits;
+use edgewalk_scene::InputKind;
 use edgewalk_vectors::{Tables, Unit};
 use std::path::PathBuf;
 
@@ -39,7 +41,8 @@ const ACCUMULATOR: &str = "z_accumulator.png";
 
 /// Runs the command.
 pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
-    let machine = args.source.machine(machine)?;
+    let asked_for = machine;
+    let machine = args.source.machine(asked_for)?;
     let frame = args.source.frame(&machine)?;
     let out = Staging::new(&args.out)?;
     let mut ids = Vec::new();
@@ -80,12 +83,22 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
             "pictures  {at}/golden.png image.png z_error.png color_error.png{dda}\n\
              report    {at}/report.txt report.json\n\
              verilog   {at}/hdl, {} modules\n\
-             vectors   {at}/vectors: {}\n\
-             at work   edgewalk replay {} --out {at}/replay.html: open it in a browser",
+             vectors   {at}/vectors: {}",
             modules.len(),
             written.join(" "),
-            args.source.input
         ))?;
+        if args.source.input != InputKind::STANDARD_INPUT {
+            talk::print(&format!("at work   {}", replaying(args, asked_for)))?;
+        }
     }
     verdict.or_nothing(&args.source.input, frame.triangles.len() as u64, (machine.width, machine.height))
+}
+
+/// The command that shows the demo's input on its machine, cycle by cycle.
+fn replaying(args: &Args, machine: &MachineArgs) -> String {
+    let mut words: Vec<String> = ["edgewalk", "replay"].map(str::to_owned).to_vec();
+    words.extend(machine.words().into_iter().map(str::to_owned));
+    words.extend(args.source.words());
+    words.extend(["--out".to_owned(), args.out.join("replay.html").display().to_string()]);
+    words.iter().map(|word| quoted(word)).collect::<Vec<_>>().join(" ")
 }
