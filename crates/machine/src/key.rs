@@ -122,21 +122,27 @@ impl Key {
         }
     }
 
-    /// The permitted value that is nearest to a refused one; none where every word is far.
+    /// The permitted value that is nearest to a refused one; none where every word is far, and of what is no number.
     fn nearest(&self, text: &str) -> Option<String> {
-        Some(match self.domain {
-            Word(words) => edgewalk_nearest::nearest(text, words.iter().copied())?.to_owned(),
-            Range(low, high) => match text.parse::<f64>() {
-                Ok(v) => (v.round().clamp(f64::from(low), f64::from(high)) as u32).to_string(),
-                Err(_) => low.to_string(),
-            },
-            OneOf(list) => {
-                let wanted = text.parse::<f64>().unwrap_or(f64::from(list[0]));
-                let distance = |v: &&u32| (f64::from(**v) - wanted).abs();
-                list.iter()
-                    .min_by(|a, b| distance(a).total_cmp(&distance(b)))
-                    .map_or_else(String::new, ToString::to_string)
+        let number = || text.parse::<f64>().ok().filter(|number| number.is_finite());
+        match self.domain {
+            Word(words) => {
+                let text = match text {
+                    "true" => "yes",
+                    "false" => "no",
+                    other => other,
+                };
+                edgewalk_nearest::nearest(text, words.iter().copied()).map(str::to_owned)
             }
-        })
+            Range(low, high) => {
+                let near = number()?.round().clamp(f64::from(low), f64::from(high));
+                Some((near as u32).to_string())
+            }
+            OneOf(list) => {
+                let wanted = number()?;
+                let distance = |v: &&u32| (f64::from(**v) - wanted).abs();
+                list.iter().min_by(|a, b| distance(a).total_cmp(&distance(b))).map(ToString::to_string)
+            }
+        }
     }
 }

@@ -61,11 +61,13 @@ impl Machine {
             let DeValue::Table(entries) = value.get_ref() else { continue };
             for (name, value) in entries {
                 let full = format!("{}.{}", section.get_ref(), name.get_ref());
+                let written = || text.get(value.span()).unwrap_or_default().replace('\n', " ");
                 let shown = match value.get_ref() {
-                    DeValue::Integer(i) => i.to_string(),
+                    // 32 may be written 0x20.
+                    DeValue::Integer(i) => i128::from_str_radix(i.as_str(), i.radix())
+                        .map_or_else(|_| written(), |number| number.to_string()),
                     DeValue::String(s) => s.to_string(),
-                    DeValue::Float(f) => f.to_string(),
-                    other => other.type_str().to_owned(),
+                    _ => written(),
                 };
                 machine.set(&full, &shown).map_err(|e| e.at(text, name.span().start))?;
             }
