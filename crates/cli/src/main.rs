@@ -36,7 +36,7 @@ mod triangles;
 mod verdict;
 
 use anyhow::{Result, anyhow};
-use clap::{CommandFactory as _, Parser, Subcommand};
+use clap::{CommandFactory as _, FromArgMatches as _, Parser, Subcommand};
 use commands::{
     bench, calibrate, compare, completions, config, demo, emit, energy, estimate, explain, gallery, judge,
     man, mutants, raster, render, replay, size, sweep, synth, trace, vectors, verify,
@@ -110,7 +110,7 @@ fn keep_freed_memory() {
 
 fn main() -> ExitCode {
     keep_freed_memory();
-    let (talk, result) = match Cli::try_parse() {
+    let (talk, result) = match parsed() {
         Ok(cli) => {
             let talk = Talk { json: cli.json, quiet: cli.quiet };
             if talk.quiet {
@@ -124,6 +124,16 @@ fn main() -> ExitCode {
         }
     };
     ExitCode::from(exit_code(result, talk))
+}
+
+/// The command line. Behind an option or as a value of its own `-1` is a number, which the range of the value refuses.
+fn parsed() -> Result<Cli, clap::Error> {
+    let matches = with_numbers(Cli::command()).try_get_matches()?;
+    Cli::from_arg_matches(&matches).map_err(|error| error.format(&mut Cli::command()))
+}
+
+fn with_numbers(command: clap::Command) -> clap::Command {
+    command.allow_negative_numbers(true).mut_subcommands(with_numbers)
 }
 
 /// Help and version are output like any other; what the command line has wrong is an error.
