@@ -69,7 +69,7 @@ pub fn check(frame: &Frame, machine: &Plan) -> Result<()> {
         ""
     };
     Err(anyhow!(
-        "{}; add {}, or --adapt, which sets what is asked for{golden}",
+        "{}; give {}, or --adapt and no --set of what it sets{golden}",
         whys.join("; "),
         settings.join(" ")
     ))
