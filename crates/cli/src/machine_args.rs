@@ -95,7 +95,7 @@ struct Setting<'a> {
 }
 
 impl Setting<'_> {
-    /// Its key and value.
+    /// Key and value; none without a `=`.
     fn parts(&self) -> Option<(&str, &str)> {
         self.setting.split_once('=').map(|(key, value)| (key.trim(), value.trim()))
     }
@@ -106,7 +106,7 @@ pub trait Needs: FnMut(&Plan) -> Result<Vec<Need>> {}
 
 impl<F: FnMut(&Plan) -> Result<Vec<Need>>> Needs for F {}
 
-/// Those of an input that no machine is adapted to.
+/// Asks for nothing: the machine stays as it is.
 pub fn no_needs(_: &Plan) -> Result<Vec<Need>> {
     Ok(Vec::new())
 }

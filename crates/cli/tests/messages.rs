@@ -123,8 +123,8 @@ const REFUSED: &[(&[&str], &str)] = &[
     ),
     (
         &["render", "t.tri", "--set", "channels.extra=2"],
-        "t.tri: extra 0: the machine has channels.extra = 2; give --set channels.extra=0, or --adapt and no --set of what it \
-         sets\n",
+        "t.tri: extra 0: the machine has channels.extra = 2; give --set channels.extra=0, or --adapt, which sets the keys that \
+         are not given\n",
     ),
 ];
 

@@ -69,7 +69,7 @@ pub fn check(frame: &Frame, machine: &Plan) -> Result<()> {
         ""
     };
     Err(anyhow!(
-        "{}; give {}, or --adapt and no --set of what it sets{golden}",
+        "{}; give {}, or --adapt, which sets the keys that are not given{golden}",
         whys.join("; "),
         settings.join(" ")
     ))

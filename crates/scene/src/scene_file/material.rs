@@ -137,7 +137,8 @@ impl Materials {
         Ok(Some(self.add(if texels == Some(NEAREST) { waves.nearest() } else { waves })))
     }
 
-    /// That of the file of the first key, read as `texels` says; the second, which is built in, must not stand beside it.
+    /// The picture of the file that the first key names, read as `texels` says; the second key, of what is built in, must
+    /// not stand beside it.
     fn picture(
         &mut self,
         table: &Table,
