@@ -122,20 +122,25 @@ impl Source {
     /// The machine asked for, with the screen of a triangle file, and with --adapt with all keys that the input asks for.
     pub fn machine(&self, args: &MachineArgs) -> Result<Plan> {
         let screen = self.screen()?;
-        let machine = args.machine(screen)?;
         if !self.adapt {
-            return Ok(machine);
+            return args.machine(screen);
         }
-        let needs = match self.triangles()? {
-            Some(frame) => needs(frame, &machine),
-            None => {
-                let _reading = reading();
-                let scene = Scene::open(&self.input)?;
-                let surface = scene.surface(machine.width, machine.height, guard_band(&machine));
-                needs(&self.frame_of(&scene, &surface, &machine)?.0, &machine)
-            }
-        };
-        args.adapted(screen, &needs)
+        if let Some(frame) = self.triangles()? {
+            return args.adapted(screen, |machine: &Plan| Ok(needs(frame, machine)));
+        }
+        let mut drawn = None;
+        args.adapted(screen, |machine: &Plan| {
+            let frame = match drawn.take() {
+                Some(frame) => frame,
+                None => {
+                    let _reading = reading();
+                    let scene = Scene::open(&self.input)?;
+                    let surface = scene.surface(machine.width, machine.height, guard_band(machine));
+                    self.frame_of(&scene, &surface, machine)?.0
+                }
+            };
+            Ok(needs(drawn.insert(frame), machine))
+        })
     }
 
     /// The scene, and its surface on this machine's screen, clipped to its guard band.

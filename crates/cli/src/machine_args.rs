@@ -1,10 +1,11 @@
 //! `--machine FILE|PRESET` and `--set key=value`, the same for every command.
 
-use anyhow::{Context, Result, anyhow};
+use anyhow::{Context, Result, anyhow, ensure};
 use edgewalk_host::needs::Need;
 use edgewalk_machine::keys::KEYS;
 use edgewalk_machine::presets::PRESETS;
 use edgewalk_machine::{Machine, Plan, Unknown};
+use std::fmt;
 use std::fs::File;
 use std::io::Read as _;
 use std::path::Path;
@@ -53,66 +54,141 @@ impl MachineArgs {
 
     /// The machine `FILE|PRESET[,key=value...]`, with what --set says on top; screen and needs as in
     /// [`MachineArgs::adapted`].
-    pub fn named(&self, text: &str, size: Option<(u32, u32)>, needs: &[Need]) -> Result<Plan> {
+    pub fn named(&self, text: &str, size: Option<(u32, u32)>, needs: impl Needs) -> Result<Plan> {
         let mut words = text.split(',').map(str::trim);
-        let machine = words.next().unwrap_or_default().to_owned();
-        let set = words.map(str::to_owned).chain(self.set.iter().cloned()).collect();
-        MachineArgs { machine, set }.adapted(size, needs).with_context(|| text.to_owned())
+        let machine = words.next().unwrap_or_default();
+        let own = words.map(|setting| Setting { option: "", setting });
+        let settings: Vec<Setting> = own.chain(self.settings()).collect();
+        load(machine)
+            .and_then(|machine| adapted(&machine, size, needs, &settings))
+            .with_context(|| text.to_owned())
     }
 
     /// The machine `FILE|PRESET[,key=value...]`, whatever --machine and --set say.
     pub fn alone(text: &str) -> Result<Plan> {
-        MachineArgs { machine: DEFAULT.to_owned(), set: Vec::new() }.named(text, None, &[])
+        MachineArgs { machine: DEFAULT.to_owned(), set: Vec::new() }.named(text, None, no_needs)
     }
 
     /// The machine asked for, with its screen replaced where the input brings its own size.
     pub fn machine(&self, size: Option<(u32, u32)>) -> Result<Plan> {
-        self.adapted(size, &[])
+        self.adapted(size, no_needs)
     }
 
     /// As [`MachineArgs::machine`], and with the keys that the input asks for; --set has the last word.
-    pub fn adapted(&self, size: Option<(u32, u32)>, needs: &[Need]) -> Result<Plan> {
-        let mut machine = self.load()?;
-        if let Some((width, height)) = size {
-            machine.set("screen.width", &width.to_string()).map_err(|e| anyhow!("size: {e}"))?;
-            machine.set("screen.height", &height.to_string()).map_err(|e| anyhow!("size: {e}"))?;
-        }
-        for Need { key, value, .. } in needs {
-            machine.set(key, value).map_err(|e| anyhow!("--adapt: {key} = {value}: {e}"))?;
-        }
-        for setting in &self.set {
-            let (key, value) = setting.split_once('=').ok_or_else(|| {
-                anyhow!("--set {setting}: write key=value, e.g. --set interpolator.adders=2")
-            })?;
-            machine.set(key.trim(), value.trim()).map_err(|e| anyhow!("--set {setting}: {e}"))?;
-        }
-        machine.plan().map_err(|e| anyhow!("{}: {e}", self.asked_for(size, needs)))
+    ///
+    /// # Errors
+    /// --set says of one of these keys what the input cannot be drawn with.
+    pub fn adapted(&self, size: Option<(u32, u32)>, needs: impl Needs) -> Result<Plan> {
+        let machine = load(&self.machine).with_context(|| format!("--machine {}", self.machine))?;
+        adapted(&machine, size, needs, &self.settings().collect::<Vec<_>>())
     }
 
-    /// All that makes the machine another than the one of the file or preset, which has been checked.
-    fn asked_for(&self, size: Option<(u32, u32)>, needs: &[Need]) -> String {
-        let size = size.map(|(width, height)| format!("size {width} {height}"));
-        let needs = needs.iter().map(|need| format!("--adapt: {} = {}", need.key, need.value));
-        let settings = self.set.iter().map(|setting| format!("--set {setting}"));
-        size.into_iter().chain(needs).chain(settings).collect::<Vec<_>>().join(", ")
+    fn settings(&self) -> impl Iterator<Item = Setting<'_>> {
+        self.set.iter().map(|setting| Setting { option: "--set ", setting })
     }
+}
 
-    fn load(&self) -> Result<Machine> {
-        if let Some(machine) = Machine::preset(&self.machine) {
-            return Ok(machine);
-        }
-        let path = Path::new(&self.machine);
-        if !path.exists() && path.extension().is_none() {
-            let unknown = Unknown::new("preset", &self.machine, PRESETS.iter().map(|p| p.0));
-            return Err(anyhow!("--machine {}: no file; {unknown}", self.machine));
-        }
-        let named = || format!("--machine {}", self.machine);
-        let mut text = String::new();
-        let file = File::open(path).with_context(named)?;
-        file.take(MAX_LENGTH + 1).read_to_string(&mut text).with_context(named)?;
-        if text.len() as u64 > MAX_LENGTH {
-            return Err(anyhow!("{}: permitted: at most {MAX_LENGTH} bytes", named()));
-        }
-        Machine::from_toml(&text).map_err(|e| anyhow!("{}: {e}", self.machine))
+/// `key=value`, and the option that it stands behind; it may also stand behind a machine's name.
+struct Setting<'a> {
+    option: &'static str,
+    setting: &'a str,
+}
+
+impl Setting<'_> {
+    /// Key and value; none without a `=`.
+    fn parts(&self) -> Option<(&str, &str)> {
+        self.setting.split_once('=').map(|(key, value)| (key.trim(), value.trim()))
     }
+}
+
+/// What the input asks of a machine.
+pub trait Needs: FnMut(&Plan) -> Result<Vec<Need>> {}
+
+impl<F: FnMut(&Plan) -> Result<Vec<Need>>> Needs for F {}
+
+/// Asks for nothing: the machine stays as it is.
+pub fn no_needs(_: &Plan) -> Result<Vec<Need>> {
+    Ok(Vec::new())
+}
+
+impl fmt::Display for Setting<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}{}", self.option, self.setting)
+    }
+}
+
+/// The machine with its settings, and where the input asks for more, with that too.
+fn adapted(
+    machine: &Machine,
+    size: Option<(u32, u32)>,
+    mut needs: impl Needs,
+    settings: &[Setting],
+) -> Result<Plan> {
+    let asked = built(machine.clone(), size, &[], settings)?;
+    let wanted = needs(&asked)?;
+    if wanted.is_empty() {
+        return Ok(asked);
+    }
+    let plan = built(machine.clone(), size, &wanted, settings)?;
+    for need in needs(&plan)? {
+        let against = |setting: &&Setting| setting.parts().is_some_and(|(key, _)| key == need.key);
+        if let Some(setting) = settings.iter().rfind(against) {
+            return Err(anyhow!("{}; {setting} stands against --adapt: leave it out", need.why));
+        }
+    }
+    Ok(plan)
+}
+
+/// The machine of a preset or file, with the screen of the input, what the input asks for, and then the settings.
+fn built(
+    mut machine: Machine,
+    size: Option<(u32, u32)>,
+    needs: &[Need],
+    settings: &[Setting],
+) -> Result<Plan> {
+    if let Some((width, height)) = size {
+        machine.set("screen.width", &width.to_string()).map_err(|e| anyhow!("size: {e}"))?;
+        machine.set("screen.height", &height.to_string()).map_err(|e| anyhow!("size: {e}"))?;
+    }
+    for Need { key, value, .. } in needs {
+        machine.set(key, value).map_err(|e| anyhow!("--adapt: {key} = {value}: {e}"))?;
+    }
+    for setting in settings {
+        let (key, value) = setting.parts().ok_or_else(|| {
+            let found = if setting.option.is_empty() && setting.setting.is_empty() {
+                "nothing stands behind a comma; ".to_owned()
+            } else {
+                format!("{setting}: ")
+            };
+            anyhow!("{found}write key=value, e.g. interpolator.adders=2")
+        })?;
+        // What stands behind a machine's name is named with it.
+        let named = if setting.option.is_empty() { String::new() } else { format!("{setting}: ") };
+        machine.set(key, value).map_err(|e| anyhow!("{named}{e}"))?;
+    }
+    machine.plan().map_err(|e| anyhow!("{}: {e}", asked_for(size, needs, settings)))
+}
+
+/// All that makes the machine another than the one of the file or preset, which has been checked.
+fn asked_for(size: Option<(u32, u32)>, needs: &[Need], settings: &[Setting]) -> String {
+    let size = size.map(|(width, height)| format!("size {width} {height}"));
+    let needs = needs.iter().map(|need| format!("--adapt: {} = {}", need.key, need.value));
+    let settings = settings.iter().map(ToString::to_string);
+    size.into_iter().chain(needs).chain(settings).collect::<Vec<_>>().join(", ")
+}
+
+/// The machine of a preset or file of that name.
+fn load(name: &str) -> Result<Machine> {
+    if let Some(machine) = Machine::preset(name) {
+        return Ok(machine);
+    }
+    let path = Path::new(name);
+    if !path.exists() && path.extension().is_none() {
+        let unknown = Unknown::new("preset", name, PRESETS.iter().map(|p| p.0));
+        return Err(anyhow!("no file; {unknown}"));
+    }
+    let mut text = String::new();
+    File::open(path)?.take(MAX_LENGTH + 1).read_to_string(&mut text)?;
+    ensure!(text.len() as u64 <= MAX_LENGTH, "permitted: at most {MAX_LENGTH} bytes");
+    Ok(Machine::from_toml(&text)?)
 }

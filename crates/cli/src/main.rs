@@ -110,10 +110,7 @@ fn keep_freed_memory() {
 
 fn main() -> ExitCode {
     keep_freed_memory();
-    // A negative number is a value, which the command refuses with what it permits.
-    let command = Cli::command().mut_subcommands(|command| command.allow_negative_numbers(true));
-    let asked = command.try_get_matches().and_then(|matches| Cli::from_arg_matches(&matches));
-    let (talk, result) = match asked {
+    let (talk, result) = match parsed() {
         Ok(cli) => {
             let talk = Talk { json: cli.json, quiet: cli.quiet };
             if talk.quiet {
@@ -127,6 +124,16 @@ fn main() -> ExitCode {
         }
     };
     ExitCode::from(exit_code(result, talk))
+}
+
+/// The command line. Behind an option or as a value of its own `-1` is a number, which the range of the value refuses.
+fn parsed() -> Result<Cli, clap::Error> {
+    let matches = with_numbers(Cli::command()).try_get_matches()?;
+    Cli::from_arg_matches(&matches).map_err(|error| error.format(&mut Cli::command()))
+}
+
+fn with_numbers(command: clap::Command) -> clap::Command {
+    command.allow_negative_numbers(true).mut_subcommands(with_numbers)
 }
 
 /// Help and version are output like any other; what the command line has wrong is an error.

@@ -146,7 +146,7 @@ fn a_scene_of_glass_is_sorted_and_blended_by_the_machine() {
     // A machine without the unit says so.
     let (code, error) = run(folder.path(), &["render", scene, "--out", "o"]);
     assert_eq!(code, Some(2), "{error}");
-    assert!(error.contains("the machine has no BLEND; add --set blend.kind="), "{error}");
+    assert!(error.contains("the machine has no BLEND; give --set blend.kind="), "{error}");
 }
 
 #[test]

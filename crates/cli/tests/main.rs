@@ -33,6 +33,7 @@ mod lines;
 mod links;
 mod manual;
 mod meshes;
+mod messages;
 mod mix;
 mod mutants;
 mod names;

@@ -68,6 +68,47 @@ fn a_run_that_cannot_place_a_file_changes_nothing() {
     assert!(error.starts_with("error: --out d.tri: "), "{error}");
 }
 
+/// A pipe stays what it is, as do devices; nothing of the run is moved where one stands in the way.
+#[test]
+fn no_file_takes_the_place_of_a_pipe() {
+    use std::os::unix::fs::{FileTypeExt as _, symlink};
+    let folder = folder();
+    let at = |name: &str| folder.path().join(name);
+    std::fs::create_dir(at("r")).unwrap();
+    let pipes = ["p.tri", "p.vcd", "p.html", "p.xml", "r/image.png", "r/lit.npy"];
+    let made = Command::new("mkfifo").args(pipes).current_dir(folder.path()).status().unwrap();
+    assert!(made.success());
+    symlink("p.tri", at("link.tri")).unwrap();
+    let commands: [(&[&str], &str); 6] = [
+        (&["triangles", "d.tri", "--out", "p.tri"], "./p.tri"),
+        (&["triangles", "d.tri", "--out", "link.tri"], "./link.tri"),
+        (&["trace", "d.tri", "--cycles", "9", "--out", "p.vcd"], "./p.vcd"),
+        (&["replay", "d.tri", "--out", "p.html"], "./p.html"),
+        (&["verify", "d.tri", "--no-simulators", "--junit", "p.xml"], "./p.xml"),
+        (&["raster", "d.tri", "--out", "r"], "r/image.png"),
+    ];
+    for (command, file) in commands {
+        let screen = if command[0] == "raster" { &[][..] } else { &SCREEN };
+        let (code, error) = run(folder.path(), &[command, screen, &["-q"]].concat());
+        let says = format!("error: {file}: a pipe stands there; permitted: a regular file or a new name\n");
+        assert_eq!((code, error), (Some(2), says), "{command:?}");
+    }
+    assert_eq!(names(&at("r")), ["image.png", "lit.npy"], "nothing was placed");
+    // A pipe of the name that a run no longer writes stays.
+    std::fs::remove_file(at("r/image.png")).unwrap();
+    passes(folder.path(), &["raster", "d.tri", "--out", "r", "-q"]);
+    for pipe in pipes.iter().filter(|pipe| **pipe != "r/image.png") {
+        let there = std::fs::symlink_metadata(at(pipe)).unwrap();
+        assert!(there.file_type().is_fifo(), "{pipe} is no pipe any more");
+    }
+
+    // A link to a file is replaced, and the file stays.
+    symlink("d.tri", at("file.tri")).unwrap();
+    passes(folder.path(), &["triangles", "sphere", "--out", "file.tri", "-q"]);
+    assert!(std::fs::symlink_metadata(at("file.tri")).unwrap().is_file());
+    assert_eq!(std::fs::read_to_string(at("d.tri")).unwrap(), TRIANGLE);
+}
+
 #[test]
 fn a_file_that_cannot_be_finished_is_named_by_its_place() {
     let folder = folder();
@@ -304,35 +345,4 @@ fn the_target_may_be_a_mount_point() {
         println!("checked a file in /dev/shm");
     }
     assert!(checked > 0, "neither a mount namespace nor /dev/shm: nothing was checked");
-}
-
-/// A pipe in the place of a file is named and stays.
-#[test]
-fn a_pipe_is_not_replaced() {
-    let folder = tempfile::tempdir().unwrap();
-    let at = folder.path();
-    std::fs::write(at.join("a.tri"), "size 16 12\nT 1 1 .5 1 0 0 0  12 1 .5 1 0 0 0  1 11 .5 1 0 0 0\n")
-        .unwrap();
-    std::fs::create_dir(at.join("r")).unwrap();
-    let pipes = ["p.tri", "p.vcd", "p.html", "r/image.png"].map(|name| at.join(name));
-    for pipe in &pipes {
-        assert!(std::process::Command::new("mkfifo").arg(pipe).status().unwrap().success());
-    }
-    for words in [
-        &["triangles", "a.tri", "--out", "p.tri"][..],
-        &["trace", "a.tri", "--out", "p.vcd"],
-        &["replay", "a.tri", "--out", "p.html"],
-        &["raster", "a.tri", "--out", "r"],
-    ] {
-        let (code, text) = crate::support::run(at, words);
-        assert!(
-            code == Some(2) && text.contains("is a pipe, a socket or a device"),
-            "{words:?}: {code:?} {text}"
-        );
-    }
-    use std::os::unix::fs::FileTypeExt;
-    for pipe in &pipes {
-        assert!(std::fs::symlink_metadata(pipe).unwrap().file_type().is_fifo(), "{}", pipe.display());
-    }
-    assert_eq!(std::fs::read_dir(at.join("r")).unwrap().count(), 1, "nothing half-written");
 }

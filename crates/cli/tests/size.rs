@@ -167,6 +167,24 @@ fn a_triangle_by_hand() {
     assert_eq!(report["channels"][1]["name"], "color");
 }
 
+/// A witness with a bit fewer has too few bits for the segments of the machine's adders.
+#[test]
+fn witnesses_of_a_segmented_adder_are_drawn() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("a.tri"), TRIANGLE).unwrap();
+    let settings = ["interpolator.segments=4", "formats.color_bits=2"];
+    let segmented: Vec<&str> = settings.iter().flat_map(|setting| ["--set", setting]).collect();
+    let whole = &segmented[2..];
+    let [segmented, whole] = [&segmented[..], whole].map(|settings| {
+        let (code, report) = json(folder.path(), &[&["size", "a.tri"], settings].concat());
+        assert_eq!(code, Some(0));
+        report["channels"].clone()
+    });
+    assert_eq!(segmented, whole, "segments change no value");
+    let witness = &segmented[1]["these"]["one_bit_fewer"];
+    assert!(witness["fraction_bits"].as_u64().unwrap() + 2 < 8, "a word of less than 4 segments: {witness}");
+}
+
 #[test]
 fn what_cannot_be_sized_is_said() {
     let folder = tempfile::tempdir().unwrap();

@@ -47,8 +47,13 @@ fn a_stalling_memory_costs_cycles_of_its_own_cause_and_no_pixel() {
         let (code, error) = run(folder.path(), &[&arguments[..], &SCREEN].concat());
         assert!(code == Some(2) && error.contains("draw with --engine fast"), "{error}");
     }
-    let (code, error) = run(folder.path(), &["render", "a.tri", "--stalls", "drm"]);
-    assert!(code == Some(2) && error.contains("nearest: dram"), "{error}");
+    for (stalls, says) in [("drm", "nearest: dram"), ("dram:refresh=13", "refresh = 13 is not permitted")] {
+        let (code, error) = run(folder.path(), &["render", "a.tri", "--stalls", stalls]);
+        assert!(code == Some(2) && error.contains(says), "{error}");
+    }
+    // The least time between refreshes leaves clocks for the picture.
+    let (_, same) = render("dram:refresh=14", "fast");
+    assert!(same == picture);
 }
 
 #[test]

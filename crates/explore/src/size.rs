@@ -94,7 +94,7 @@ pub fn size(machine: &Plan, port: &PortFrame, error: f64) -> Result<Size> {
     // POLY moves from one pixel of the screen to another.
     let guard_columns = if machine.polygon.is_there() { 0 } else { (1 << guard_bits.needed) - 1 };
     let fewest = Screen { guard_columns, ..machine.screen() };
-    // What is made of the values on their way to memory changes nothing of their words.
+    // Neither what is made of the values on their way to memory nor the segments of an adder change their words.
     let machine = &plain(machine)?;
     // Red, green and blue are of one format.
     let all = machine.channels().iter().enumerate().filter(|(place, _)| !(2..4).contains(place));
@@ -117,13 +117,13 @@ pub fn size(machine: &Plan, port: &PortFrame, error: f64) -> Result<Size> {
     Ok(Size { error, guard_bits, channels: all.map(of).collect::<Result<_>>()? })
 }
 
-/// The machine without SHADE, SHADOW and BLEND.
+/// The machine without SHADE, SHADOW and BLEND, and with adders of one segment, which a word of any length has.
 fn plain(machine: &Plan) -> Result<Plan> {
     let bare = Machine::default();
     let adders = machine.adders.min(bare.adders + machine.extra);
     let plain = machine.with(|keys| {
         (keys.shade, keys.shadow, keys.blend) = (bare.shade, bare.shadow, bare.blend);
-        keys.adders = adders;
+        (keys.adders, keys.segments) = (adders, bare.segments);
     });
     Ok(plain.plan()?)
 }

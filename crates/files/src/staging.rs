@@ -9,6 +9,7 @@ use anyhow::{Context, Result, anyhow};
 use std::collections::BTreeSet;
 use std::fs::{self, File};
 use std::io::{self, BufWriter, Write as _};
+use std::os::unix::fs::FileTypeExt as _;
 use std::path::{Path, PathBuf};
 
 /// Files on their way into a folder.
@@ -29,7 +30,16 @@ impl Staging {
     }
 
     /// A new file of that name (which may contain folders).
+    ///
+    /// # Errors
+    /// A pipe, socket or device stands in its place, or a link to one: such are never replaced. A link to a file is.
     pub fn create(&self, name: &str) -> Result<BufWriter<File>> {
+        if let Some(kind) = special(&self.target.join(name)) {
+            return Err(anyhow!(
+                "{}: a {kind} stands there; permitted: a regular file or a new name",
+                self.name(name)
+            ));
+        }
         let file = self.scratch.create(&Path::new(NEW).join(name));
         Ok(BufWriter::with_capacity(1 << 16, file.with_context(|| self.name(name))?))
     }
@@ -93,6 +103,20 @@ impl Staging {
     }
 }
 
+/// The kind of what stands there, behind links too, if it is neither file nor folder.
+fn special(path: &Path) -> Option<&'static str> {
+    let kind = fs::metadata(path).ok()?.file_type();
+    if kind.is_file() || kind.is_dir() {
+        None
+    } else if kind.is_fifo() {
+        Some("pipe")
+    } else if kind.is_socket() {
+        Some("socket")
+    } else {
+        Some("device")
+    }
+}
+
 /// The first link among the folders between the target and a file in it.
 fn link_on_the_way(target: &Path, name: &Path) -> Option<PathBuf> {
     let mut folders: Vec<PathBuf> = name.ancestors().skip(1).map(|folder| target.join(folder)).collect();
@@ -138,14 +162,7 @@ impl Moves {
                     at()
                 ));
             }
-            // A link is replaced, not what it leads to.
-            Ok(there) if there.is_file() || there.is_symlink() => self.put_away(target)?,
-            Ok(_) => {
-                return Err(anyhow!(
-                    "{}: is a pipe, a socket or a device; name a file, or one that is not there yet",
-                    at()
-                ));
-            }
+            Ok(_) => self.put_away(target)?,
             Err(_) => {}
         }
         self.rename(new, target).with_context(at)

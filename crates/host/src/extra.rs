@@ -25,7 +25,7 @@ pub fn none(machine: &Plan) -> Result<()> {
     match channels(machine).len() {
         0 => Ok(()),
         wanted => Err(anyhow!(
-            "extra 0: the machine has channels.extra = {wanted}; add --set channels.extra=0, or draw a triangle file with a line `extra {wanted}`"
+            "extra 0: the machine has channels.extra = {wanted}; give --set channels.extra=0, or draw a triangle file with a line `extra {wanted}`"
         )),
     }
 }

@@ -69,7 +69,7 @@ pub fn check(frame: &Frame, machine: &Plan) -> Result<()> {
         ""
     };
     Err(anyhow!(
-        "{}; add {}, or --adapt, which sets what is asked for unless --set names the key{golden}",
+        "{}; give {}, or --adapt, which sets the keys that are not given{golden}",
         whys.join("; "),
         settings.join(" ")
     ))

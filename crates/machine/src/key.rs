@@ -122,24 +122,27 @@ impl Key {
         }
     }
 
-    /// The permitted value that is nearest to a refused one; none of what is no number, or where every word is far.
+    /// The permitted value that is nearest to a refused one; none where every word is far, and of what is no number.
     fn nearest(&self, text: &str) -> Option<String> {
         let number = || text.parse::<f64>().ok().filter(|number| number.is_finite());
-        Some(match self.domain {
+        match self.domain {
             Word(words) => {
-                let word = match text {
+                let text = match text {
                     "true" => "yes",
                     "false" => "no",
-                    word => word,
+                    other => other,
                 };
-                edgewalk_nearest::nearest(word, words.iter().copied())?.to_owned()
+                edgewalk_nearest::nearest(text, words.iter().copied()).map(str::to_owned)
             }
-            Range(low, high) => (number()?.round().clamp(f64::from(low), f64::from(high)) as u32).to_string(),
+            Range(low, high) => {
+                let near = number()?.round().clamp(f64::from(low), f64::from(high));
+                Some((near as u32).to_string())
+            }
             OneOf(list) => {
                 let wanted = number()?;
                 let distance = |v: &&u32| (f64::from(**v) - wanted).abs();
-                list.iter().min_by(|a, b| distance(a).total_cmp(&distance(b)))?.to_string()
+                list.iter().min_by(|a, b| distance(a).total_cmp(&distance(b))).map(ToString::to_string)
             }
-        })
+        }
     }
 }

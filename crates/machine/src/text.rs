@@ -61,12 +61,13 @@ impl Machine {
             let DeValue::Table(entries) = value.get_ref() else { continue };
             for (name, value) in entries {
                 let full = format!("{}.{}", section.get_ref(), name.get_ref());
+                let written = || text.get(value.span()).unwrap_or_default().replace('\n', " ");
                 let shown = match value.get_ref() {
-                    // TOML's hexadecimal, octal and binary digits are those of Rust.
-                    DeValue::Integer(i) => i64::from_str_radix(i.as_str(), i.radix())
-                        .map_or_else(|_| text[value.span()].to_owned(), |number| number.to_string()),
+                    // 32 may be written 0x20.
+                    DeValue::Integer(i) => i128::from_str_radix(i.as_str(), i.radix())
+                        .map_or_else(|_| written(), |number| number.to_string()),
                     DeValue::String(s) => s.to_string(),
-                    _ => text[value.span()].to_owned(),
+                    _ => written(),
                 };
                 machine.set(&full, &shown).map_err(|e| e.at(text, name.span().start))?;
             }

@@ -90,9 +90,9 @@ mod tests {
         // A miss 1 + 6; a hit 1, a turn and a hit 1 + 2; another bank's page 1 + 6.
         let dram = "dram:banks=4,page=256,miss=6,turn=2,refresh=0,busy=13";
         assert_eq!(clocks(dram, &accesses), [7 + 1 + 3 + 7, 0]);
-        // The refresh of cycle 7 comes with the second access, closes the pages and takes 13 clocks.
-        let refreshed = "dram:banks=4,page=256,miss=6,turn=2,refresh=7,busy=13";
-        assert_eq!(clocks(refreshed, &accesses[..2]), [7 + 1 + 3 + 13, 0]);
+        // The refresh of cycle 7 comes with the second access, closes the pages and takes 6 clocks.
+        let refreshed = "dram:banks=4,page=256,miss=6,turn=2,refresh=7,busy=6";
+        assert_eq!(clocks(refreshed, &accesses[..2]), [7 + 1 + 3 + 6, 0]);
         // Every clock of the memory twice as long.
         let slow = "dram:banks=4,page=256,miss=12,turn=4,refresh=0,word=2";
         assert_eq!(clocks(slow, &accesses), [2 * (7 + 1 + 3 + 7), 0]);

@@ -149,11 +149,10 @@ fn scene(table: &Table, path: &Path) -> Result<Scene, InputError> {
 fn normal_rule(table: &Table) -> Result<NormalRule, InputError> {
     let default = NormalRule::default();
     let weight = table.choice("weight", &Weight::NAMES)?.map_or(default.weight, |place| Weight::ALL[place]);
-    let crease = if table.is_text("crease") {
-        table.choice("crease", &["groups"])?.map_or(default.crease, |_| Crease::Groups)
-    } else {
-        let angle = table.number("crease", 0.0..=180.0)?;
-        angle.map_or(default.crease, |degrees| Crease::Angle(degrees.to_radians()))
+    let crease = match table.number_or("crease", 0.0..=180.0, "groups")? {
+        Some(Some(degrees)) => Crease::Angle(degrees.to_radians()),
+        Some(None) => Crease::Groups,
+        None => default.crease,
     };
     Ok(NormalRule { given: table.flag("given")?.unwrap_or(default.given), weight, crease })
 }

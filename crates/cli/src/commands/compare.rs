@@ -5,7 +5,7 @@ mod page;
 
 use crate::Talk;
 use crate::cost::{SynthArgs, Synthesiser};
-use crate::machine_args::MachineArgs;
+use crate::machine_args::{MachineArgs, no_needs};
 use crate::progress::reading;
 use crate::verdict::Verdict;
 use anyhow::{Context, Result, anyhow};
@@ -194,14 +194,14 @@ impl Asked {
                 input.name()
             ));
         }
-        let mut plan = machine.named(text, screen, &[])?;
+        let mut plan = machine.named(text, screen, no_needs)?;
         let (shading, shaded) = match own.or(common) {
             Some(asked) => asked,
             None => named(of_machine(&plan))?,
         };
         let input = input.shaded(shaded);
         if args.adapt {
-            plan = machine.named(text, screen, &input.needs(&plan))?;
+            plan = machine.named(text, screen, |machine: &Plan| Ok(input.needs(machine)))?;
         }
         let shading = screen.is_none().then_some(shading);
         Ok(Asked { name: name.to_owned(), plan, input, shading, shaded })

@@ -77,28 +77,28 @@ pub fn run(args: &Args, asked_for: &MachineArgs, talk: Talk) -> Result<Verdict> 
     out.publish(&[&own[..], &pictures, &[ACCUMULATOR.to_owned()]].concat())?;
     talk.say(|| document("report", &report), || report.text())?;
     if !talk.quiet && !talk.json {
-        // What came from the standard input is used up.
-        let at_work = match args.source.input == InputKind::STANDARD_INPUT {
-            true => String::new(),
-            false => {
-                let page = args.out.join("replay.html").display().to_string();
-                let words = ["edgewalk".to_owned(), "replay".to_owned()].into_iter();
-                let words = words.chain(asked_for.words().into_iter().map(str::to_owned));
-                let words = words.chain(["--out".to_owned(), page]).chain(args.source.words());
-                let command = words.map(|word| quoted(&word)).collect::<Vec<_>>().join(" ");
-                format!("\nat work   {command}: open its page in a browser")
-            }
-        };
         let at = args.out.display();
         let dda = if dda.is_some() { " z_accumulator.png" } else { "" };
         talk::print(&format!(
             "pictures  {at}/golden.png image.png z_error.png color_error.png{dda}\n\
              report    {at}/report.txt report.json\n\
              verilog   {at}/hdl, {} modules\n\
-             vectors   {at}/vectors: {}{at_work}",
+             vectors   {at}/vectors: {}",
             modules.len(),
             written.join(" "),
         ))?;
+        if args.source.input != InputKind::STANDARD_INPUT {
+            talk::print(&format!("at work   {}", replaying(args, asked_for)))?;
+        }
     }
     verdict.or_nothing(&args.source.input, frame.triangles.len() as u64, (machine.width, machine.height))
+}
+
+/// The command that shows the demo's input on its machine, cycle by cycle.
+fn replaying(args: &Args, machine: &MachineArgs) -> String {
+    let mut words: Vec<String> = ["edgewalk", "replay"].map(str::to_owned).to_vec();
+    words.extend(machine.words().into_iter().map(str::to_owned));
+    words.extend(args.source.words());
+    words.extend(["--out".to_owned(), args.out.join("replay.html").display().to_string()]);
+    words.iter().map(|word| quoted(word)).collect::<Vec<_>>().join(" ")
 }

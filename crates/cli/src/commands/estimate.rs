@@ -13,7 +13,7 @@ use rows::{Row, rows};
 
 use crate::Talk;
 use crate::document::document;
-use crate::machine_args::MachineArgs;
+use crate::machine_args::{MachineArgs, no_needs};
 use crate::verdict::Verdict;
 use anyhow::{Result, anyhow};
 use edgewalk_machine::{Plan, Unknown};
@@ -80,7 +80,7 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
     let machines: Vec<(String, Plan)> = match args.machines.is_empty() {
         true => vec![(machine.words().join(" "), machine.machine(None)?)],
         false => {
-            let named = |name: &String| Ok((name.clone(), machine.named(name, None, &[])?));
+            let named = |name: &String| Ok((name.clone(), machine.named(name, None, no_needs)?));
             args.machines.iter().map(named).collect::<Result<_>>()?
         }
     };

@@ -96,8 +96,12 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
     let file = TriangleFile::open(&args.file)?;
     let header = file.header()?;
     let screen = Some((header.width, header.height));
-    let asked = machine.machine(screen)?;
-    let machine = if args.adapt { machine.adapted(screen, &needs(&file.whole()?, &asked))? } else { asked };
+    let machine = if args.adapt {
+        let frame = file.whole()?;
+        machine.adapted(screen, |machine: &Plan| Ok(needs(&frame, machine)))?
+    } else {
+        machine.machine(screen)?
+    };
     if header.extra != extra::channels(&machine).len() {
         needs::check(&file.whole()?, &machine).with_context(|| name.clone())?;
     }

@@ -5,7 +5,7 @@ use crate::input::Source;
 use crate::machine_args::MachineArgs;
 use crate::verdict::Verdict;
 use crate::{Talk, talk};
-use anyhow::{Context as _, Result, anyhow};
+use anyhow::{Context as _, Result, ensure};
 use edgewalk_files::Staging;
 use edgewalk_scene::{InputKind, TJoint, triangle_file};
 use serde_json::json;
@@ -30,6 +30,12 @@ pub struct Args {
 
 /// Runs the command.
 pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
+    let to_output = args.out == Path::new(InputKind::STANDARD_INPUT);
+    ensure!(
+        !to_output || !talk.json,
+        "--out - --json: the standard output takes one of the triangle file and the JSON document; give --out a file, or leave \
+         --json out"
+    );
     let machine = args.source.machine(machine)?;
     let (frame, joints) = if args.source.is_triangle_file() {
         (args.source.frame(&machine)?, Vec::new())
@@ -44,12 +50,7 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
         0 => String::new(),
         count => format!(" and {count} lines"),
     };
-    if args.out == Path::new(InputKind::STANDARD_INPUT) {
-        if talk.json {
-            return Err(anyhow!(
-                "--out - with --json: the triangle file takes the standard output; leave --json out, or name a file"
-            ));
-        }
+    if to_output {
         talk::print(&String::from_utf8(text).context("a triangle file is ASCII")?)?;
     } else {
         let name = args.out.file_name().and_then(|name| name.to_str()).context("--out: no file name")?;

@@ -14,17 +14,17 @@ fn another_number_of_channels_names_the_key_both_numbers_and_the_remedy() {
     let three = ["--set", "channels.extra=3"];
     let says_2 = |machine: u32| {
         format!(
-            "two.tri: extra 2: the machine has channels.extra = {machine}; add --set channels.extra=2, \
-             or --adapt, which sets what is asked for unless --set names the key\n"
+            "two.tri: extra 2: the machine has channels.extra = {machine}; give --set channels.extra=2, \
+             or --adapt, which sets the keys that are not given\n"
         )
     };
     let says_0 = |input: &str| {
         let other = match input {
             "sphere" => "or draw a triangle file with a line `extra 3`",
-            _ => "or --adapt, which sets what is asked for unless --set names the key",
+            _ => "or --adapt, which sets the keys that are not given",
         };
         format!(
-            "{input}: extra 0: the machine has channels.extra = 3; add --set channels.extra=0, {other}\n"
+            "{input}: extra 0: the machine has channels.extra = 3; give --set channels.extra=0, {other}\n"
         )
     };
     let mut refused = 0;

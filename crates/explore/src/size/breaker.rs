@@ -5,7 +5,7 @@ use anyhow::Result;
 use edgewalk_host::draw;
 use edgewalk_host::port::to_port;
 use edgewalk_judge::beside::{Golden, Proved, beside};
-use edgewalk_machine::{Channel, Kind, Plan};
+use edgewalk_machine::{Channel, Kind, MachineError, Plan};
 use edgewalk_model::Waits;
 use edgewalk_numerics::solver::solve;
 use edgewalk_numerics::{ChannelBits, Rounding, Screen, Target, Witness};
@@ -64,7 +64,10 @@ impl Breaker {
         let Some(witness) = solution.one_bit_fewer.filter(|witness| witness.fraction_bits + 1 == bits) else {
             return none("none was found");
         };
-        let fewer = with_bits(machine, place, bits - 1)?;
+        let fewer = match with_bits(machine, place, bits - 1) {
+            Ok(fewer) => fewer,
+            Err(why) => return none(&format!("no machine has one bit fewer: {why}")),
+        };
         let frame = frame(&fewer, place, &witness);
         let port = to_port(&frame, &fewer)?;
         let proved = Proved { reach: None, shading: None };
@@ -80,9 +83,8 @@ impl Breaker {
     }
 }
 
-/// The machine with other fraction bits of depth or colour. Its adders are whole: segments change no value, and a shorter word
-/// may have too few bits for them.
-fn with_bits(machine: &Plan, place: usize, bits: u32) -> Result<Plan> {
+/// The machine with other fraction bits of depth or colour.
+fn with_bits(machine: &Plan, place: usize, bits: u32) -> Result<Plan, MachineError> {
     let precision = with_fraction(machine.channels()[place], bits).precision;
     let machine = machine.with(|keys| {
         keys.segments = 1;
@@ -91,7 +93,7 @@ fn with_bits(machine: &Plan, place: usize, bits: u32) -> Result<Plan> {
             _ => keys.color = precision,
         }
     });
-    Ok(machine.plan()?)
+    machine.plan()
 }
 
 /// The witness's output leaves the range of the channel.

@@ -20,7 +20,7 @@ pub struct Dram {
     pub miss: u32,
     /// Clocks to turn from reads to writes or back.
     pub turn: u32,
-    /// Clocks from refresh to refresh, which closes all pages; 0: none.
+    /// Clocks from refresh to refresh, which closes all pages, more than `busy`; 0: none.
     pub refresh: u32,
     /// Clocks that a refresh takes.
     pub busy: u32,

@@ -25,12 +25,7 @@ pub(super) fn read(table: &Table) -> Result<Light, InputError> {
     let kind = table.choice("kind", &names)?;
     let kind = table.required("kind", kind, "permitted: directional positional flood")?;
     let (name, own) = KINDS[kind];
-    if let Some(other) =
-        KEYS[1..].iter().find(|key| **key != "intensity" && !own.contains(*key) && table.has(key))
-    {
-        let permitted = format!("permitted in a {name} light: kind intensity {}", own.join(" "));
-        return Err(table.fault("key", other, permitted));
-    }
+    table.only(KEYS, &[&["kind", "intensity"], own].concat(), &format!("a {name} light"))?;
     let intensity = table.color("intensity", MAX_INTENSITY)?.unwrap_or(DVec3::ONE);
     let direction = |key: &str| {
         let direction = table.direction(key)?;

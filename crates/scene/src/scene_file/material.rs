@@ -65,11 +65,9 @@ impl Materials {
     }
 
     fn material(&mut self, table: &Table, path: &Path) -> Result<Material, InputError> {
-        if texels(table)?.is_some() && !PICTURES.iter().any(|key| table.has(key)) {
-            let permitted =
-                "permitted only beside `texture`, `checker`, `gloss`, `bump` or `waves`, a picture of texels";
-            return Err(table.fault("texels", "given", permitted));
-        }
+        table.beside("texels", &PICTURES, ", a picture of texels")?;
+        table.beside("colors", &["checker"], "")?;
+        table.beside("bump_height", &["bump", "waves"], "")?;
         let diffuse = table.color("diffuse", 1.0)?.unwrap_or(Material::DEFAULT.diffuse);
         let material = Material {
             emission: table.color("emission", 1e6)?.unwrap_or(DVec3::ZERO),
@@ -94,12 +92,12 @@ impl Materials {
 
     /// A picture, or the built-in chequer.
     fn texture(&mut self, table: &Table, path: &Path) -> Result<Option<u32>, InputError> {
-        if let Some(file) = one_of(table, ["texture", "checker"])? {
-            return Ok(Some(self.picture(table, path, file)?));
+        if let Some(picture) = self.picture(table, path, ["texture", "checker"])? {
+            return Ok(Some(picture));
         }
-        let Some(squares) = table.number("checker", 1.0..=65536.0)? else { return Ok(None) };
+        let Some(squares) = table.count("checker", 1..=65536)? else { return Ok(None) };
         let texels = texels(table)?;
-        if texels.is_some() && squares > f64::from(MAX_TEXTURE_SIDE) {
+        if texels.is_some() && squares > MAX_TEXTURE_SIDE {
             let permitted =
                 format!("permitted beside `texels`: at most {MAX_TEXTURE_SIDE}, a texel a square");
             return Err(table.fault("checker", squares, permitted));
@@ -107,7 +105,7 @@ impl Materials {
         let colors = table.vectors("colors", 1.0)?.unwrap_or(vec![DVec3::ONE, DVec3::splat(0.25)]);
         match <[DVec3; 2]>::try_from(colors) {
             Ok(colors) if colors.iter().all(|color| color.min_element() >= 0.0) => {
-                let checker = Texture::Checker { squares: squares as u32, colors };
+                let checker = Texture::Checker { squares, colors };
                 Ok(Some(self.add(if texels == Some(NEAREST) { checker.nearest() } else { checker })))
             }
             _ => Err(table.fault("colors", "list", "permitted: two of [r, g, b], each from 0 to 1")),
@@ -116,33 +114,43 @@ impl Materials {
 
     /// A picture of k_s and n, or a built-in chequer of full and a quarter gloss.
     fn gloss(&mut self, table: &Table, path: &Path) -> Result<Option<u32>, InputError> {
-        if let Some(file) = one_of(table, ["gloss", "gloss_checker"])? {
-            return Ok(Some(self.picture(table, path, file)?));
+        if let Some(picture) = self.picture(table, path, ["gloss", "gloss_checker"])? {
+            return Ok(Some(picture));
         }
-        let Some(squares) = table.number("gloss_checker", 1.0..=65536.0)? else { return Ok(None) };
+        let Some(squares) = table.count("gloss_checker", 1..=65536)? else { return Ok(None) };
         let colors = [DVec3::ONE, DVec3::splat(0.25)];
-        Ok(Some(self.add(Texture::Checker { squares: squares as u32, colors })))
+        Ok(Some(self.add(Texture::Checker { squares, colors })))
     }
 
     /// A picture of heights, or the built-in waves.
     fn relief(&mut self, table: &Table, path: &Path) -> Result<Option<u32>, InputError> {
-        if let Some(file) = one_of(table, ["bump", "waves"])? {
-            return Ok(Some(self.picture(table, path, file)?));
+        if let Some(picture) = self.picture(table, path, ["bump", "waves"])? {
+            return Ok(Some(picture));
         }
-        let Some(count) = table.number("waves", 1.0..=65536.0)? else { return Ok(None) };
-        let (texels, most) = (texels(table)?, f64::from(MAX_TEXTURE_SIDE / WAVE_TEXELS));
+        let Some(count) = table.count("waves", 1..=65536)? else { return Ok(None) };
+        let (texels, most) = (texels(table)?, MAX_TEXTURE_SIDE / WAVE_TEXELS);
         if texels.is_some() && count > most {
             let permitted = format!("permitted beside `texels`: at most {most}, {WAVE_TEXELS} texels a wave");
             return Err(table.fault("waves", count, permitted));
         }
-        let waves = Texture::Waves { count: count as u32 };
+        let waves = Texture::Waves { count };
         Ok(Some(self.add(if texels == Some(NEAREST) { waves.nearest() } else { waves })))
     }
 
-    /// A file's, read as `texels` says.
-    fn picture(&mut self, table: &Table, path: &Path, file: &str) -> Result<u32, InputError> {
-        let picture = Texture::read(&path.with_file_name(file))?;
-        Ok(self.add(if texels(table)? == Some(NEAREST) { picture.nearest() } else { picture }))
+    /// The picture of the file that the first key names, read as `texels` says; the second key, of what is built in, must
+    /// not stand beside it.
+    fn picture(
+        &mut self,
+        table: &Table,
+        path: &Path,
+        [key, built_in]: [&'static str; 2],
+    ) -> Result<Option<u32>, InputError> {
+        if table.has(key) && table.has(built_in) {
+            return Err(table.fault(built_in, "both", format!("permitted: one of {key}, {built_in}")));
+        }
+        let Some(name) = table.file(key)? else { return Ok(None) };
+        let picture = Texture::read(&path.with_file_name(name)).map_err(|error| table.of_file(key, error))?;
+        Ok(Some(self.add(if texels(table)? == Some(NEAREST) { picture.nearest() } else { picture })))
     }
 
     fn add(&mut self, texture: Texture) -> u32 {
@@ -155,6 +163,10 @@ impl Materials {
         let Some(name) = table.text(key)? else { return Ok(None) };
         match self.named.iter().find(|(other, _)| other == name) {
             Some((_, material)) => Ok(Some(*material)),
+            None if self.named.is_empty() => {
+                let permitted = "no [[material]] is declared; declare one of this name, or leave the key out";
+                Err(table.fault(key, name, permitted))
+            }
             None => {
                 let names: Vec<&str> = self.named.iter().map(|(name, _)| name.as_str()).collect();
                 let near =
@@ -169,12 +181,4 @@ impl Materials {
 /// How the pictures of a material are read.
 fn texels(table: &Table) -> Result<Option<usize>, InputError> {
     table.choice("texels", &["bilinear", "nearest"])
-}
-
-/// The file of the first key; the second, which is built in, must not stand beside it.
-fn one_of<'a>(table: &Table<'a>, [file, built_in]: [&'static str; 2]) -> Result<Option<&'a str>, InputError> {
-    if table.has(file) && table.has(built_in) {
-        return Err(table.fault(built_in, "both", format!("permitted: one of {file}, {built_in}")));
-    }
-    table.text(file)
 }

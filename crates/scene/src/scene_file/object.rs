@@ -25,8 +25,17 @@ pub(super) const KEYS: &[&str] = &[
 /// Largest texture coordinate, either way.
 const MAX_TEXTURE: f64 = 1e6;
 
-/// Meshes without a file; of the first four the fineness may be said.
-const BUILTIN: [&str; 5] = ["sphere", "torus", "torus-knot", "terrain", "room"];
+/// Keys of every object.
+const COMMON: [&str; 4] = ["material", "scale", "rotate", "translate"];
+
+/// Meshes without a file, and which keys say how fine each is.
+const BUILTIN: [(&str, &[&str]); 5] = [
+    ("sphere", &["columns", "rows"]),
+    ("torus", &["columns", "rows"]),
+    ("torus-knot", &["columns", "rows"]),
+    ("terrain", &["columns"]),
+    ("room", &[]),
+];
 
 pub(super) fn read(table: &Table, materials: &Materials, path: &Path) -> Result<Part, InputError> {
     let given = ["mesh", "builtin", "faces"].into_iter().filter(|key| table.has(key)).count();
@@ -34,13 +43,18 @@ pub(super) fn read(table: &Table, materials: &Materials, path: &Path) -> Result<
         let permitted = "permitted: exactly one of mesh, builtin, faces (with positions)";
         return Err(table.fault("mesh", format!("{given} of them"), permitted));
     }
-    let mesh = if let Some(name) = table.text("mesh")? {
+    let only = |own: &[&str], such: &str| table.only(KEYS, &[own, &COMMON].concat(), such);
+    let mesh = if let Some(name) = table.file("mesh")? {
+        only(&["mesh"], "an object with mesh")?;
         let beside = path.with_file_name(name);
-        file::open(&beside)?; // what a file names is no pipe
-        Mesh::read(&beside)?
-    } else if let Some(place) = table.choice("builtin", &BUILTIN)? {
+        // What a file names is no pipe.
+        file::open(&beside).and_then(|_| Mesh::read(&beside)).map_err(|error| table.of_file("mesh", error))?
+    } else if let Some(place) = table.choice("builtin", &BUILTIN.map(|(name, _)| name))? {
+        let (name, fineness) = BUILTIN[place];
+        only(&[&["builtin"], fineness].concat(), &format!("a {name}"))?;
         built_in(table, place)?
     } else {
+        only(&["faces", "positions", "uv"], "an object with faces")?;
         listed(table)?
     };
     Ok(Part { mesh, placed: placed(table)?, material: materials.get(table, "material")? })
@@ -48,11 +62,8 @@ pub(super) fn read(table: &Table, materials: &Materials, path: &Path) -> Result<
 
 fn built_in(table: &Table, place: usize) -> Result<Mesh, InputError> {
     let (columns, rows) = [(48, 24), (64, 32), (256, 24), (96, 96), (1, 1)][place];
-    let count = |key: &str, default: u32| {
-        let count = table.number(key, 3.0..=2048.0)?;
-        Ok::<_, InputError>(count.map_or(default, |count| count as u32))
-    };
-    let (columns, rows) = (count("columns", columns)?, count("rows", rows)?);
+    let columns = table.count("columns", 3..=2048)?.unwrap_or(columns);
+    let rows = table.count("rows", 3..=2048)?.unwrap_or(rows);
     match place {
         0 => mesh::sphere(columns, rows),
         1 => mesh::torus(columns, rows),
@@ -64,7 +75,7 @@ fn built_in(table: &Table, place: usize) -> Result<Mesh, InputError> {
 
 /// First scaled, then turned about the fixed z axis, then y, then x, then moved.
 fn placed(table: &Table) -> Result<DAffine3, InputError> {
-    let scale = table.factors("scale")?.unwrap_or(DVec3::ONE);
+    let scale = table.factors("scale", 1e-6..=1e6)?.unwrap_or(DVec3::ONE);
     let [x, y, z] = table.vector("rotate", 360.0)?.unwrap_or(DVec3::ZERO).to_array().map(f64::to_radians);
     let turn = DQuat::from_euler(EulerRot::ZYXEx, z, y, x);
     let translate = table.vector("translate", MAX_POSITION)?.unwrap_or(DVec3::ZERO);
@@ -93,5 +104,10 @@ fn listed(table: &Table) -> Result<Mesh, InputError> {
     if faces.is_empty() {
         return Err(table.fault("faces", "none", "permitted: at least one face"));
     }
-    Ok(Mesh::new("object", positions, faces, vec![Material::DEFAULT])?.with_face_data(face_data))
+    let mesh = Mesh::new("", positions, faces, vec![Material::DEFAULT]).map_err(|error| match error {
+        // Where it stands is said by the table.
+        InputError::Fault(fault) => table.fault(&fault.key, fault.value, fault.permitted),
+        error => error,
+    })?;
+    Ok(mesh.with_face_data(face_data))
 }

@@ -93,11 +93,6 @@ impl<'a> Table<'a> {
         self.value(key).is_some()
     }
 
-    /// Whether a key is there and is text.
-    pub fn is_text(&self, key: &str) -> bool {
-        self.text(key).is_ok_and(|text| text.is_some())
-    }
-
     /// A text.
     pub fn text(&self, key: &str) -> Result<Option<&'a str>, InputError> {
         match self.value(key).map(Spanned::get_ref) {
@@ -105,6 +100,51 @@ impl<'a> Table<'a> {
             Some(DeValue::String(text)) => Ok(Some(text)),
             Some(_) => Err(self.wrong(key, "permitted: a text in quotes")),
         }
+    }
+
+    /// The name of a file.
+    pub fn file(&self, key: &str) -> Result<Option<&'a str>, InputError> {
+        match self.text(key)? {
+            Some("") => Err(self.fault(key, "", "permitted: the name of a file")),
+            name => Ok(name),
+        }
+    }
+
+    /// What is wrong with the file that a key names; one that cannot be read is a fault of the key.
+    pub fn of_file(&self, key: &str, error: InputError) -> InputError {
+        match (error, self.text(key)) {
+            (InputError::Read { source, .. }, Ok(Some(name))) => {
+                self.fault(key, name, format!("cannot be read: {source}"))
+            }
+            (error, _) => error,
+        }
+    }
+
+    /// Refuses the first of `keys` that is there and not among `own`, the keys of such a table.
+    pub fn only(&self, keys: &[&str], own: &[&str], such: &str) -> Result<(), InputError> {
+        match keys.iter().find(|key| self.has(key) && !own.contains(key)) {
+            Some(other) => {
+                let start =
+                    self.entries.get_key_value(*other).map_or(self.start, |(key, _)| key.span().start);
+                let permitted = format!("permitted in {such}: {}", own.join(" "));
+                Err(self.source.fault(start, format!("{}key", self.name), other, permitted).into())
+            }
+            None => Ok(()),
+        }
+    }
+
+    /// Refuses a key that means something only beside one of others.
+    pub fn beside(&self, key: &str, others: &[&str], because: &str) -> Result<(), InputError> {
+        if !self.has(key) || others.iter().any(|other| self.has(other)) {
+            return Ok(());
+        }
+        let others: Vec<String> = others.iter().map(|other| format!("`{other}`")).collect();
+        let others = match others.split_last() {
+            Some((last, [])) => last.clone(),
+            Some((last, first)) => format!("{} or {last}", first.join(", ")),
+            None => String::new(),
+        };
+        Err(self.fault(key, "given", format!("permitted only beside {others}{because}")))
     }
 
     /// One of some names: its place among them.
@@ -140,6 +180,37 @@ impl<'a> Table<'a> {
         }
     }
 
+    /// A number within `range`; `None` within for a word in its place.
+    pub fn number_or(
+        &self,
+        key: &str,
+        range: RangeInclusive<f64>,
+        word: &str,
+    ) -> Result<Option<Option<f64>>, InputError> {
+        match self.value(key).map(Spanned::get_ref) {
+            Some(DeValue::String(text)) if text == word => Ok(Some(None)),
+            Some(value) => match number(value).filter(|number| range.contains(number)) {
+                Some(number) => Ok(Some(Some(number))),
+                None => {
+                    let (least, most) = range.into_inner();
+                    Err(self.wrong(key, format!("permitted: \"{word}\", or a number from {least} to {most}")))
+                }
+            },
+            None => Ok(None),
+        }
+    }
+
+    /// A whole number within `range`.
+    pub fn count(&self, key: &str, range: RangeInclusive<u32>) -> Result<Option<u32>, InputError> {
+        let Some(value) = self.value(key) else { return Ok(None) };
+        let (least, most) = range.into_inner();
+        let permitted = f64::from(least)..=f64::from(most);
+        match number(value.get_ref()).filter(|number| number.fract() == 0.0 && permitted.contains(number)) {
+            Some(number) => Ok(Some(number as u32)),
+            None => Err(self.wrong(key, format!("permitted: a whole number from {least} to {most}"))),
+        }
+    }
+
     /// A list of three numbers within ±`limit`.
     pub fn vector(&self, key: &str, limit: f64) -> Result<Option<DVec3>, InputError> {
         let Some(value) = self.value(key) else { return Ok(None) };
@@ -162,24 +233,28 @@ impl<'a> Table<'a> {
 
     /// Red, green, blue from 0 to `most`: a list of three numbers, or one for all.
     pub fn color(&self, key: &str, most: f64) -> Result<Option<DVec3>, InputError> {
-        let Some(value) = self.value(key) else { return Ok(None) };
-        let color = triple(value.get_ref()).or_else(|| number(value.get_ref()).map(DVec3::splat));
-        match color.filter(|c| c.min_element() >= 0.0 && c.max_element() <= most) {
-            Some(color) => Ok(Some(color)),
-            None => {
-                let permitted = format!("permitted: a number or [r, g, b], each from 0 to {most}");
-                Err(self.wrong(key, permitted))
-            }
-        }
+        self.three_or_one(key, 0.0..=most, "[r, g, b]")
     }
 
-    /// Factors along x, y and z from 1e-6 to 1e6: a list of three numbers, or one for all.
-    pub fn factors(&self, key: &str) -> Result<Option<DVec3>, InputError> {
+    /// Factors of x, y, z within `range`: a list of three numbers, or one for all.
+    pub fn factors(&self, key: &str, range: RangeInclusive<f64>) -> Result<Option<DVec3>, InputError> {
+        self.three_or_one(key, range, "[x, y, z]")
+    }
+
+    fn three_or_one(
+        &self,
+        key: &str,
+        range: RangeInclusive<f64>,
+        list: &str,
+    ) -> Result<Option<DVec3>, InputError> {
         let Some(value) = self.value(key) else { return Ok(None) };
-        let factors = triple(value.get_ref()).or_else(|| number(value.get_ref()).map(DVec3::splat));
-        match factors.filter(|f| f.min_element() >= 1e-6 && f.max_element() <= 1e6) {
-            Some(factors) => Ok(Some(factors)),
-            None => Err(self.wrong(key, "permitted: a number or [x, y, z], each from 1e-6 to 1e6")),
+        let three = triple(value.get_ref()).or_else(|| number(value.get_ref()).map(DVec3::splat));
+        match three.filter(|three| three.to_array().iter().all(|number| range.contains(number))) {
+            Some(three) => Ok(Some(three)),
+            None => {
+                let (least, most) = range.into_inner();
+                Err(self.wrong(key, format!("permitted: a number or {list}, each from {least} to {most}")))
+            }
         }
     }
 

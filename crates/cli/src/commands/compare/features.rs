@@ -16,7 +16,7 @@ use crate::cell_energy::{CellEnergy, Drawing};
 use crate::cost::Synthesiser;
 use crate::document::document;
 use crate::estimator::Estimator;
-use crate::machine_args::MachineArgs;
+use crate::machine_args::{MachineArgs, no_needs};
 use crate::verdict::Verdict;
 use anyhow::{Context, Result, anyhow};
 use edgewalk_explore::sweep::equation::{Distance, Equation, Measure};
@@ -58,7 +58,7 @@ impl Column {
             Some(asked) => (asked, true),
             None => (name, false),
         };
-        let plan = machine.named(apart(asked)?.0, None, &[])?;
+        let plan = machine.named(apart(asked)?.0, None, no_needs)?;
         Ok(Column { name: name.to_owned(), asked: asked.to_owned(), shadows, plan })
     }
 
