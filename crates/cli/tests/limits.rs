@@ -143,7 +143,10 @@ fn an_endless_word_is_refused_at_once() {
         (&["render", "long.toml"], "long.toml: length: "),
         (&["render", "key.toml"], "key.toml:1: key: "),
         (&["emit", "--machine", "machine.toml"], "--machine machine.toml: permitted: at most"),
-        (&["emit", "--machine", "machine_key.toml"], "machine_key.toml: line 2: unknown key screen.xxx"),
+        (
+            &["emit", "--machine", "machine_key.toml"],
+            "--machine machine_key.toml: line 2: unknown key screen.xxx",
+        ),
         (&["raster", "word.tri", "--out", "o"], "word.tri:2: line starts with: "),
         (&["raster", "number.tri", "--out", "o"], "number.tri:2: T: "),
     ];

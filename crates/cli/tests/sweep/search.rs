@@ -191,7 +191,7 @@ fn malformed_searches_are_refused() {
     for (words, why) in [
         (&["--search", "0"][..], "--search 0: permitted: 32 to 200000 machines with 1 points each"),
         (&["--search", "31"], "permitted: 32 to 200000"),
-        (&["--search", "-1"], "unexpected argument '-1'"),
+        (&["--search", "-1"], "invalid value '-1' for '--search <N>': -1 is not in 0..="),
         (&["--search", "many"], "invalid digit"),
         (&["--search", "1872"], "--search 1872: there are 1872 machines; leave --search out"),
         (&["--search", "64", "--sample", "64"], "cannot be used with"),
