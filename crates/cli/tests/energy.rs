@@ -365,3 +365,38 @@ fn pairs_of_machines_are_ordered_as_expected() {
     }
     println!("{checked} of 6 pairs");
 }
+
+/// docs/energy.md: OpenSTA 2.0.17 derives the transitions of a register anew, whatever it is given. A version that keeps them
+/// makes the page untrue, and fails here.
+#[test]
+fn transitions_of_a_register_are_derived_anew() {
+    let folder = tempfile::tempdir().unwrap();
+    let netlist = "module t (clk, a, y);\n input clk, a; output y; wire d, n;\n\
+                   DFFPOSX1 r (.CLK(clk), .D(d), .Q(y));\n XOR2X1 x (.A(y), .B(a), .Y(d));\n INVX1 i (.A(y), .Y(n));\nendmodule\n";
+    std::fs::write(folder.path().join("t.v"), netlist).unwrap();
+    let told = |register: &str, port: &str| {
+        let script = format!(
+            "read_liberty /usr/share/qflow/tech/osu018/osu018_stdcells.lib\nread_verilog t.v\nlink_design t\n\
+             create_clock -name clk -period 8 [get_ports clk]\nsta::set_power_input_port_activity [get_ports a] {port} 0.5\n\
+             sta::set_power_pin_activity [get_pins r/Q] {register}\nreport_power -digits 6 -instances [get_cells *]\n"
+        );
+        std::fs::write(folder.path().join("s.tcl"), script).unwrap();
+        let sta = std::process::Command::new("sta")
+            .args(["-no_splash", "-exit", "s.tcl"])
+            .current_dir(folder.path())
+            .output();
+        let text = String::from_utf8(sta.expect("opensta is installed by tests/run").stdout).unwrap();
+        let lines: Vec<String> = text.lines().filter(|line| line.contains('e')).map(str::to_owned).collect();
+        assert!(
+            lines.iter().filter(|line| [" r", " x", " i"].iter().any(|end| line.ends_with(end))).count() == 3,
+            "{text}"
+        );
+        lines
+    };
+    assert_eq!(
+        told("0.0 0.0", "0.3"),
+        told("1.0 0.5", "0.3"),
+        "docs/energy.md says that a register's transitions are not kept"
+    );
+    assert_ne!(told("0.0 0.0", "0.3"), told("0.0 0.0", "0.9"), "those of a port are");
+}

@@ -13,9 +13,10 @@ use std::path::PathBuf;
 /// Draw the input with the machine's netlist, count the transitions of its registers, and compute area, clock and energy in
 /// standard cells.
 ///
-/// Yosys maps the Verilog onto the cells of OSU's library for 0.18 um, or of your own; OpenSTA computes the clock, and the power from the
-/// transitions of every register and port. There is no layout: wires and the tree of the clock cost nothing. The memories
-/// outside the machine are not counted. The figures compare machines; they are no promise of a chip.
+/// Yosys maps the Verilog onto the cells of OSU's library for 0.18 um, or of your own; OpenSTA computes the clock and the power. It is
+/// given the transitions of every register and port; version 2.0.17 takes those of the ports and derives the others
+/// (docs/energy.md). There is no layout: wires and the tree of the clock cost nothing. The memories outside the machine are
+/// not counted. The figures compare machines; they are no promise of a chip.
 ///
 /// Tools: apt-get install yosys opensta qflow-tech-osu018.
 #[derive(clap::Args)]

@@ -179,7 +179,7 @@ fn a_replay_of_another_version_is_refused_in_words() {
     let case = &seven()[0];
     let html = case.html();
     for (from, to, word) in [
-        ("\"version\":[1,1]", "\"version\":[2,0]", "version 2.0; this page shows version 1"),
+        ("\"version\":[1,2]", "\"version\":[2,0]", "version 2.0; this page shows version 1"),
         ("\"format\":\"edgewalk-replay\"", "\"format\":\"other\"", "This is no replay: its format is other"),
     ] {
         assert_eq!(html.matches(from).count(), 1);
@@ -188,7 +188,7 @@ fn a_replay_of_another_version_is_refused_in_words() {
         let said = browser.eval("document.getElementById('difference').textContent");
         assert!(said.as_str().is_some_and(|said| said.contains(word)), "{said}");
     }
-    let (_folder, path) = file(&html.replace("\"version\":[1,1]", "\"version\":[1,7],\"later\":{}"));
+    let (_folder, path) = file(&html.replace("\"version\":[1,2]", "\"version\":[1,7],\"later\":{}"));
     browser.open(&path, "");
     assert_eq!(browser.eval("app.cycle"), 0, "a later minor version is shown");
 }
