@@ -1,4 +1,4 @@
-//! Errors name what the user wrote, where it stands, and what is permitted in its place.
+//! An error names the user's word, the place of that word, and the permitted values.
 #![allow(clippy::unwrap_used)] // a test that unwraps nothing reports it
 
 use crate::support::{TRIANGLE, edgewalk, names, run};

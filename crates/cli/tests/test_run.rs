@@ -256,7 +256,7 @@ fn files_of_verilator_are_compiled_once_for_the_same_options() {
         assert_eq!((code, calls), (Some(0), 1), "{options:?} {source}");
         assert_ne!(other, first);
     }
-    // A failure is told, and nothing of it is kept.
+    // The compiler's exit code is passed on, and no object is kept.
     assert_eq!(cached.compile(&["-Dwrong"], own), (Some(3), None, 1));
     assert_eq!(cached.compile(&["-Dwrong"], own), (Some(3), None, 1));
 
