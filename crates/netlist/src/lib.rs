@@ -49,4 +49,4 @@ pub use error::{BuildError, BuildErrors, Fault, Place};
 pub use netlist::{Netlist, NodeId};
 pub use ops::Op;
 pub use simulate::{InputId, SignalId, SimError, Simulate, Simulator};
-pub use trace::{BitTransitions, FstTrace, Labels, Transitions, UnitTransitions, VcdTrace};
+pub use trace::{BitBlocks, FstTrace, Labels, Transitions, UnitTransitions, VcdTrace};

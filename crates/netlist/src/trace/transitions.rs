@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use super::watch::{Scope, Watch, everything};
 use crate::simulate::Simulator;
 
-/// A count of the transitions of every named signal that can change, and of every bit of the memories that are written.
+/// A count of the transitions of every named signal that can change.
 ///
 /// Signals are seen once a cycle, so glitches within a cycle are not counted.
 pub struct Transitions {
@@ -14,11 +14,9 @@ pub struct Transitions {
     pub(super) nets: Vec<Net>,
     /// The instance of the top module that computes each signal, by place; empty for the top module.
     units: Vec<String>,
-    /// By path, the words of each memory.
-    memories: Vec<(String, Vec<Net>)>,
 }
 
-/// What was counted of a signal, or of a word of a memory.
+/// What was counted of a signal.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Net {
     /// Transitions of each bit, the lowest first.
@@ -41,15 +39,6 @@ pub struct UnitTransitions {
     pub transitions: u64,
 }
 
-/// What was counted of one bit.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct BitTransitions {
-    /// Changes of its value.
-    pub transitions: u64,
-    /// Cycles in which it was 1.
-    pub high: u64,
-}
-
 impl Transitions {
     /// Counts nothing yet; `top` is the name of the outermost instance in a SAIF file.
     pub fn new(sim: &Simulator, top: &str) -> Self {
@@ -60,10 +49,7 @@ impl Transitions {
         };
         let nets = watch.widths().iter().map(net).collect();
         let units = watch.signals().map(|signal| sim.unit(signal).to_owned()).collect();
-        let words = |path: &str| sim.memory(path).map_or(0, <[u128]>::len);
-        let memories = sim.written_memories();
-        let memories = memories.map(|(path, width)| (path.to_owned(), vec![net(&width); words(path)]));
-        Transitions { memories: memories.collect(), scope, watch, nets, units }
+        Transitions { scope, watch, nets, units }
     }
 
     /// Counts the changes since the last sample; to be called once a cycle, before the tick.
@@ -71,13 +57,6 @@ impl Transitions {
         let cycle = self.watch.cycles();
         for change in self.watch.changed(sim) {
             self.nets[change.place].change(change.from, change.to, cycle);
-        }
-        for (path, nets) in &mut self.memories {
-            for (net, word) in nets.iter_mut().zip(sim.memory(path).unwrap_or_default()) {
-                if cycle == 0 || net.value != *word {
-                    net.change((cycle > 0).then_some(net.value), *word, cycle);
-                }
-            }
         }
     }
 
@@ -100,37 +79,6 @@ impl Transitions {
             transitions,
         };
         sums.into_iter().map(sum).collect()
-    }
-
-    /// Every bit by its path: `u_edge.major_c[3]`, or `u_edge.walks` for a signal of one bit. A signal of several names is
-    /// there by each of them. A bit of a memory is there by its word and its place in it: `u_span.queue[2][7]`.
-    pub fn bits(&self) -> BTreeMap<String, BitTransitions> {
-        let mut bits = BTreeMap::new();
-        self.bits_of(&self.scope, "", &mut bits);
-        for (path, words) in &self.memories {
-            for (word, net) in words.iter().enumerate() {
-                self.bits_of_net(net, &format!("{path}[{word}]"), false, &mut bits);
-            }
-        }
-        bits
-    }
-
-    /// The bits of a signal. A single bit bears the signal's `name` itself if `alone`.
-    fn bits_of_net(&self, net: &Net, name: &str, alone: bool, bits: &mut BTreeMap<String, BitTransitions>) {
-        let counted = net.transitions.iter().zip(net.high_until(self.cycles()));
-        for (bit, (transitions, high)) in counted.enumerate() {
-            let path = if alone && net.high.len() == 1 { name.to_owned() } else { format!("{name}[{bit}]") };
-            bits.insert(path, BitTransitions { transitions: *transitions, high });
-        }
-    }
-
-    fn bits_of(&self, scope: &Scope, prefix: &str, bits: &mut BTreeMap<String, BitTransitions>) {
-        for (name, place) in &scope.variables {
-            self.bits_of_net(&self.nets[*place], &format!("{prefix}{name}"), true, bits);
-        }
-        for inner in &scope.scopes {
-            self.bits_of(inner, &format!("{prefix}{}.", inner.name), bits);
-        }
     }
 }
 
