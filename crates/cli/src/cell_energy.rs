@@ -1,13 +1,15 @@
 //! Energy of a machine in standard cells while it draws a frame: for `energy`, and for tables of machines.
 
 use crate::cost::cache_folder;
-use anyhow::{Context, Result, anyhow};
+use anyhow::{Context, Result, anyhow, ensure};
 use edgewalk_files::Scratch;
 use edgewalk_host::port::PortFrame;
 use edgewalk_machine::{Counted, Plan};
 use edgewalk_model::{Counters, Pass};
-use edgewalk_netlist::Transitions;
-use edgewalk_synth::{Activity, Cache, Design, Library, Part, Placeless, Power, gates, power};
+use edgewalk_netlist::{BitBlocks, Simulator};
+use edgewalk_synth::{
+    Cache, Design, GateRun, Gates, Library, Part, Placeless, Power, UNSETTLED, gates, power,
+};
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
@@ -49,24 +51,24 @@ impl CellEnergy {
         Ok(CellEnergy { library, cache, _scratch: scratch, limit: Duration::from_secs(limit) })
     }
 
-    /// Draws with the machine's netlist, counts transitions, and computes area, clock and energy at so many MHz, or at the
-    /// fastest clock. Each token that enters the machine calls `taken`.
+    /// Maps the machine onto gates, draws with netlist and gates side by side, and computes area, clock and energy at so many MHz,
+    /// or at the fastest clock. Each token that enters the machine calls `taken`.
     ///
     /// # Errors
-    /// A tool is missing, fails or takes too long; a machine that cannot be built.
+    /// A tool is missing, fails or takes too long; a machine that cannot be built; gates that differ from the netlist; too few
+    /// cycles to compare the two.
     pub fn measure(&self, of: &Drawing, mhz: Option<f64>, taken: &dyn Fn()) -> Result<Report> {
-        let (counted, counters) = drawn(of, taken)?;
         let design = Design::new(of.machine, Part::MACHINE)
             .map_err(|e| anyhow!("the netlist cannot be built: {e}"))?;
         let gates = gates(&design, &self.library, &self.cache, self.limit)?;
-        let cycles = counted.cycles();
-        let a_cycle = |count: u64| count as f64 / cycles as f64;
-        let activity = counted.bits().into_iter().map(|(name, bit)| {
-            (name, Activity { transitions: a_cycle(bit.transitions), high: a_cycle(bit.high) })
-        });
+        let (run, cycles, counters) = drawn(of, &gates, &self.library, taken)?;
         let mhz = mhz.unwrap_or(1000.0 / gates.placeless.ns);
         let frame = frame(of.port, cycles, &counters);
-        let power = power(&gates, &self.library, &activity.collect(), 1000.0 / mhz, &self.cache, self.limit)?;
+        let power = power(&gates, &self.library, &run, 1000.0 / mhz)?;
+        ensure!(
+            power.compared > 0,
+            "{cycles} cycles were run; more than {UNSETTLED} are needed: gates and netlist are compared from then on"
+        );
         Ok(Report {
             energy: energy(&power, mhz, &frame),
             machine: of.machine.hash(),
@@ -124,18 +126,59 @@ struct Energy {
     units: BTreeMap<String, f64>,
 }
 
-/// Draws, and counts transitions.
-fn drawn(of: &Drawing, told: &dyn Fn()) -> Result<(Transitions, Counters)> {
-    let Drawing { machine, port, cycles } = *of;
-    let mut counted: Option<Transitions> = None;
+/// Draws with netlist and gates; gives the run of the gates, the cycles, and the counters.
+fn drawn<'l>(
+    of: &Drawing,
+    gates: &Gates,
+    library: &'l Library,
+    told: &dyn Fn(),
+) -> Result<(GateRun<'l>, u64, Counters)> {
+    let (mut run, mut failed, mut blocks) = (None, None, None);
+    let (cycles, counters) = clocked(of, told, |sim| {
+        let blocks = blocks.get_or_insert_with(|| BitBlocks::new(sim));
+        if run.is_none() {
+            match GateRun::new(gates, library, blocks.names()) {
+                Ok(new) => run = Some(new),
+                Err(stop) => {
+                    failed = Some(stop);
+                    return false;
+                }
+            }
+        }
+        blocks.sample(sim);
+        let (words, cycles) = blocks.block();
+        if cycles == BitBlocks::CYCLES {
+            run.iter_mut().for_each(|run| run.block(words, cycles));
+        }
+        true
+    })?;
+    if let Some(stop) = failed {
+        return Err(stop.into());
+    }
+    let mut run = run.context("the machine did not run")?;
+    if let Some((words, cycles)) = blocks.as_ref().map(BitBlocks::block)
+        && cycles < BitBlocks::CYCLES
+    {
+        run.block(words, cycles);
+    }
+    Ok((run, cycles, counters))
+}
+
+/// Draws with the machine's netlist; `cycle` sees every cycle before its edge, and returns false to end. Gives the cycles seen.
+fn clocked(
+    of: &Drawing,
+    told: &dyn Fn(),
+    mut cycle: impl FnMut(&mut Simulator) -> bool,
+) -> Result<(u64, Counters)> {
+    let Drawing { machine, port, cycles: most } = *of;
     let taken = port.triangles.iter().copied().inspect(|_| told());
     let passes = [Pass { triangles: port.triangles.len(), ..Pass::all(port.state()?) }];
+    let mut cycles = 0;
     let counters = edgewalk_lockstep::render_rtl_with(machine, taken, &passes, port.words(), |sim| {
-        let counted = counted.get_or_insert_with(|| Transitions::new(sim, "edgewalk"));
-        counted.sample(sim);
-        counted.cycles() < cycles
+        cycles += 1;
+        cycle(sim) && cycles < most
     })?;
-    Ok((counted.context("the machine did not run")?, counters))
+    Ok((cycles, counters))
 }
 
 fn frame(port: &PortFrame, cycles: u64, counters: &Counters) -> Frame {
@@ -169,19 +212,20 @@ impl Report {
         let mut t = format!("machine {machine} in cells of {library}; {}; {}\n", tools[0], tools[1]);
         _ = writeln!(
             t,
-            "    {:<10}{:>12}{:>9}{:>8}{:>12}{:>9}",
-            "unit", "area um2", "FF", "share", "nJ a frame", "share"
+            "    {:<10}{:>12}{:>9}{:>8}{:>12}{:>9}{:>9}",
+            "unit", "area um2", "FF", "share", "nJ a frame", "share", "still"
         );
         for (area, watts) in units.iter().zip(&power.units) {
             _ = writeln!(
                 t,
-                "    {:<10}{:>12.0}{:>9}{:>6.1} %{:>12.2}{:>7.1} %",
+                "    {:<10}{:>12.0}{:>9}{:>6.1} %{:>12.2}{:>7.1} %{:>9}",
                 area.unit,
                 area.area_um2,
                 area.flip_flops,
                 100.0 * area.area_um2 / area_um2,
                 energy.units[&area.unit] / 1000.0,
-                100.0 * watts.watts / power.watts
+                100.0 * watts.watts / power.watts,
+                watts.still.map_or_else(|| "-".to_owned(), |still| format!("{:.1} %", 100.0 * still))
             );
         }
         _ = writeln!(
@@ -192,10 +236,22 @@ impl Report {
         _ = writeln!(t, "clock {ns:.3} ns, {:.1} MHz without wires: {} to {}", 1000.0 / ns, path[0], path[1]);
         _ = writeln!(
             t,
-            "power {:.2} mW at {mhz:.1} MHz, {:.4} of it leakage; transitions counted of {} of {flip_flops} flip-flops",
+            "power {:.2} mW at {mhz:.1} MHz: clock {:.2}, flip-flops {:.2}, gates {:.2}, leakage {:.4}",
             1e3 * power.watts,
-            1e3 * power.leakage_watts,
-            power.counted
+            1e3 * power.clock_watts,
+            1e3 * power.flip_flop_watts,
+            1e3 * power.gate_watts,
+            1e3 * power.leakage_watts
+        );
+        _ = writeln!(
+            t,
+            "a clock that stops for units that hold still would take {:.2} mW less",
+            1e3 * power.still_watts
+        );
+        _ = writeln!(
+            t,
+            "transitions {:.1} a cycle, counted at every net; {} next states and outputs compared with the netlist, 0 differ",
+            power.transitions, power.compared
         );
         _ = writeln!(
             t,
@@ -248,9 +304,9 @@ mod tests {
             panic!("machines with SHADE are ticked");
         };
         let drawing = Drawing { machine: &machine, port: &port, cycles: 1 << 20 };
-        let (counted, counters) = drawn(&drawing, &|| ()).expect("is drawn");
+        let (cycles, counters) = clocked(&drawing, &|| (), |_| true).expect("is drawn");
         let model = model.counters;
-        assert_eq!((counted.cycles(), counters.writes), (model.cycles, model.writes));
+        assert_eq!((cycles, counters.writes), (model.cycles, model.writes));
         assert!(counters.writes > 500, "{}", counters.writes);
     }
 }

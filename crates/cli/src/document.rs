@@ -7,8 +7,9 @@ use serde::Serialize;
 /// new.
 fn version(what: &str) -> [u32; 2] {
     match what {
-        "report" | "energy" | "estimate" => [1, 1],
-        "sweep" | "features" => [1, 2],
+        "report" | "estimate" => [1, 1],
+        "energy" | "sweep" => [1, 2],
+        "features" => [1, 3],
         _ => [1, 0],
     }
 }

@@ -85,8 +85,20 @@ fn every_figure_of_energy_follows_from_the_others() {
     let watts = power["units"].as_array().unwrap().iter().map(|unit| number(&unit["watts"])).sum::<f64>();
     assert!(near(watts, number(&power["watts"])));
     assert!(power["leakage_watts"].as_f64().unwrap() < watts / 100.0);
+    let parts = ["clock_watts", "flip_flop_watts", "gate_watts", "leakage_watts"];
+    assert!(near(parts.iter().map(|part| number(&power[part])).sum(), watts));
+    parts.iter().for_each(|part| assert!(number(&power[part]) > 0.0, "{part}"));
     let counted = power["counted"].as_u64().unwrap();
     assert!(counted * 20 >= report["flip_flops"].as_u64().unwrap() * 19, "{counted} were counted");
+    // Every flip-flop of the netlist and every output, in every cycle but the first 16.
+    let (compared, cycles) = (power["compared"].as_u64().unwrap(), frame["cycles"].as_u64().unwrap() - 16);
+    assert!(compared.is_multiple_of(cycles) && compared / cycles > counted, "{compared} in {cycles} cycles");
+    clock_takes(&report);
+    let of_units =
+        |of: &dyn Fn(&Value) -> f64| power["units"].as_array().unwrap().iter().map(of).sum::<f64>();
+    assert!(near(of_units(&|unit| number(&unit["clock_watts"])), number(&power["clock_watts"])));
+    let still = |unit: &Value| unit["still"].as_f64().unwrap_or(0.0) * number(&unit["clock_watts"]);
+    assert!(near(of_units(&still), number(&power["still_watts"])));
     let frame_pj = watts / 50e6 * 1e12 * number(&frame["cycles"]);
     assert!(near(frame_pj, number(&energies["frame_pj"])));
     assert_eq!(frame["triangles"], 300);
@@ -105,7 +117,17 @@ fn every_figure_of_energy_follows_from_the_others() {
             number(&report["kge"])
         ),
         format!("clock {:.3} ns", number(&report["ns"])),
-        format!("power {:.2} mW at 50.0 MHz", watts * 1e3),
+        format!(
+            "power {:.2} mW at 50.0 MHz: clock {:.2}, flip-flops {:.2}, gates {:.2}, leakage {:.4}",
+            watts * 1e3,
+            number(&power["clock_watts"]) * 1e3,
+            number(&power["flip_flop_watts"]) * 1e3,
+            number(&power["gate_watts"]) * 1e3,
+            number(&power["leakage_watts"]) * 1e3
+        ),
+        format!("hold still would take {:.2} mW less", number(&power["still_watts"]) * 1e3),
+        format!("transitions {:.1} a cycle, counted at every net", number(&power["transitions"])),
+        format!("{compared} next states and outputs compared with the netlist, 0 differ"),
         format!("energy {:.1} pJ a cycle", number(&energies["cycle_pj"])),
         format!("{:.1} pJ a triangle, of 300", number(&energies["triangle_pj"])),
         format!("{:.1} pJ a pixel written, of {}", number(&energies["pixel_pj"]), frame["writes"]),
@@ -122,6 +144,45 @@ fn every_figure_of_energy_follows_from_the_others() {
     assert!((fast - slow).abs() < 1e-4 * fast, "{fast} and {slow} pJ");
 
     in_the_table_of_features(folder.path());
+}
+
+/// The clock's part by hand: two edges a cycle at each flip-flop, from the library's figures of DFFPOSX1.
+fn clock_takes(report: &Value) {
+    // Energies of rise and fall at a transition time of 0: the lines through the first two figures of each table.
+    let at_zero = |first: f64, second: f64| first - (second - first) / (0.24 - 0.06) * 0.06;
+    let within = at_zero(0.006865, 0.006943) + at_zero(0.11034, 0.129769); // pJ
+    let charged = 0.0279235 * 1.8 * 1.8; // pF V2
+    let pj = (within + charged) * number(&report["flip_flops"]);
+    let told = number(&report["power"]["clock_watts"]) / 50e6 * 1e12;
+    assert!(near(told, pj), "{told} pJ a cycle, {pj} by hand");
+}
+
+/// A gate of another kind in the kept gates: the command says which flip-flop has another value, and ends as for a broken tool.
+#[test]
+fn gates_that_differ_from_the_netlist_are_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    for step in std::fs::read_dir(*GATES).unwrap() {
+        let step = step.unwrap();
+        if !step.path().join("modules.json").exists() {
+            continue;
+        }
+        let copy = folder.path().join("kept").join(step.file_name());
+        std::fs::create_dir_all(&copy).unwrap();
+        for file in std::fs::read_dir(step.path()).unwrap() {
+            let file = file.unwrap();
+            let text = std::fs::read_to_string(file.path()).unwrap();
+            let text = match file.file_name().to_str() {
+                Some("modules.json") => text.replacen("\"NAND2X1\"", "\"NOR2X1\"", 1),
+                _ => text,
+            };
+            std::fs::write(copy.join(file.file_name()), text).unwrap();
+        }
+    }
+    let words = [&["energy", "sphere", "--triangles", "300", "--cache", "kept"][..], &SMALL].concat();
+    let (code, error) = run(folder.path(), &words);
+    assert_eq!(code, Some(3), "{error}");
+    assert!(error.contains("yosys failed:\nits gates give "), "{error}");
+    assert!(error.contains(" another value than the netlist in cycle "), "{error}");
 }
 
 /// `compare --energy` tells of each machine what `energy` does at the machine's own clock; the text has its energy a pixel.
@@ -141,6 +202,11 @@ fn in_the_table_of_features(folder: &Path) {
     assert_eq!(of(0), &alone);
     // Other colours, other transitions, in the same gates.
     assert_eq!(of(1)["area_um2"], alone["area_um2"]);
+    let [flat, gouraud] = [of(1), &alone].map(|of| number(&of["power"]["transitions"]));
+    assert!(
+        flat < gouraud,
+        "{flat} transitions a cycle with constant colours, {gouraud} with interpolated ones"
+    );
     assert_ne!(of(1)["energy"]["pixel_pj"], alone["energy"]["pixel_pj"]);
     let text = edgewalk(folder, &words).output().unwrap();
     let text = String::from_utf8(text.stdout).unwrap();
@@ -159,6 +225,10 @@ fn energy_refuses_what_it_cannot_do() {
         (&["explain", "sphere", "0", "0", "--triangles", "0"], "0 is not in 1.."),
         (&["vectors", "--count", "0"], "0 is not in 1.."),
         (&["energy", "none.tri"], "none.tri: cannot be read"),
+        (
+            &[&["energy", "sphere", "--cycles", "16", "--cache", *GATES][..], &SMALL].concat(),
+            "16 cycles were run; more than 16 are needed: gates and netlist are compared from then on",
+        ),
         (&["compare", "a", "b", "sphere", "--library", "x.lib"], "--energy <N>"),
     ] {
         let (code, error) = run(folder.path(), words);
@@ -169,7 +239,7 @@ fn energy_refuses_what_it_cannot_do() {
 
 /// The smallest library that is accepted.
 const CELLS: &str = "library (tiny) {
-  time_unit : \"1ns\";
+  time_unit : \"1ns\"; nom_voltage : 1.8;
   capacitive_load_unit (1, pf);
   cell (ND) {
     area : 4;
@@ -193,7 +263,7 @@ const CELLS: &str = "library (tiny) {
 ";
 
 /// What is replaced in [`CELLS`], by what, and how the error goes on behind the file's name.
-const WRONG_LIBRARIES: [(&str, &str, &str); 22] = [
+const WRONG_LIBRARIES: [(&str, &str, &str); 30] = [
     (CELLS, "", ":1: the text is empty; a Liberty file begins with library (NAME) {"),
     (CELLS, "module a (b);\nendmodule\n", ":1: found `module`; a Liberty file begins with library (NAME) {"),
     (CELLS, "{ \"cells\": [] }", ":1: found `{`; a Liberty file begins with library (NAME) {"),
@@ -220,6 +290,26 @@ const WRONG_LIBRARIES: [(&str, &str, &str); 22] = [
     ("area : 4;", "area : inf;", ":5: area of cell `ND`: found `inf`; permitted: a number of 0 or more, um2"),
     ("cell (IV)", "cell (ND)", ":10: cell `ND` is there a second time; permitted: once"),
     ("cell (IV)", "cell ()", ":10: a cell without a name; needed: cell (NAME) {"),
+    (
+        "  capacitive_load_unit (1, pf);\n",
+        "",
+        ":1: the library has no capacitive_load_unit; needed: capacitive_load_unit (1, pf);",
+    ),
+    ("(1, pf)", "(1, nf)", ":3: found capacitive_load_unit (1, nf); permitted: a number, and pf or ff"),
+    ("1.8", "low", ":2: found nom_voltage `low`; a number is needed"),
+    ("1.8", "0", ":1: the library has no nom_voltage above 0; needed: nom_voltage : 1.8;"),
+    ("1ns", "1 day", ":2: found time_unit `1 day`; permitted: a number and one of ns, ps, fs, us"),
+    (
+        "pin (B) {",
+        "pin (B) { internal_power () { rise_power (scalar) { values (\"1\"); } }",
+        ":7: `internal_power` has neither `power` nor both of `rise_power` and `fall_power`",
+    ),
+    (
+        "pin (B) {",
+        "pin (B) { internal_power () { power (scalar) { values (\"1, 2\"); } }",
+        ":7: found 2 values; needed: 1",
+    ),
+    ("pin (B) {", "pin (B) { capacitance : much;", ":7: found capacitance `much`; a number is needed"),
     ("\"(A B)'\"", "\"(A B)\"", ": has no NAND of two inputs with an area"),
     ("\"!A\"", "\"A\"", ": has no inverter"),
     (
@@ -292,6 +382,9 @@ fn energy_takes_another_library() {
     }
     assert!(installed.contains("time_unit : \"1ns\""));
     let quick = report(&installed.replace("time_unit : \"1ns\"", "time_unit : \"1ps\""));
+    // But for the leakage, a clock's period does not matter.
+    let [one, other] = [&quick, &osu].map(|report| number(&report["energy"]["frame_pj"]));
+    assert!((one - other).abs() < 1e-3 * other, "{one} and {other} pJ");
     // OpenSTA prints four digits.
     let [quick, osu] = [&quick, &osu].map(|report| number(&report["ns"]));
     assert!((quick - osu / 1000.0).abs() <= 0.5e-4, "{quick} and {osu} ns");
@@ -326,10 +419,10 @@ fn libraries_of_the_page_give_its_figures() {
     assert_eq!(checked, 12);
 }
 
-/// Six pairs of machines whose order was stated before the first run. Three of them have it, and docs/energy.md says why the
-/// others have not. The test holds the order that was measured.
+/// Six pairs of machines whose order was stated before the first run. Five of them have it, and docs/energy.md says why the
+/// sixth has not. The test holds the order that was measured.
 #[test]
-#[ignore = "synthesis of eight machines: two minutes"]
+#[ignore = "synthesis of seven machines: eight minutes"]
 fn pairs_of_machines_are_ordered_as_expected() {
     let folder = tempfile::tempdir().unwrap();
     let pj = |set: &[&str]| {
@@ -353,10 +446,10 @@ fn pairs_of_machines_are_ordered_as_expected() {
     // Of each pair: the machine, and whether a frame (0) or a cycle (1) of it takes less than the default's, as measured.
     for (set, what, less) in [
         (&["formats.z_fraction=6", "formats.color_fraction=6"][..], 0, true),
-        (&["interpolator.adders=1"], 1, false),
+        (&["interpolator.adders=1"], 1, true),
         (&["setup.lanes=1"], 1, true),
         (&["setup.kind=sequenced"], 1, false),
-        (&["memory.hazard=drain"], 1, false),
+        (&["memory.hazard=drain"], 1, true),
         (&["fifo.span=32"], 1, false),
     ] {
         let other = pj(set);
@@ -364,39 +457,4 @@ fn pairs_of_machines_are_ordered_as_expected() {
         checked += 1;
     }
     println!("{checked} of 6 pairs");
-}
-
-/// docs/energy.md: OpenSTA 2.0.17 derives the transitions of a register anew, whatever it is given. A version that keeps them
-/// makes the page untrue, and fails here.
-#[test]
-fn transitions_of_a_register_are_derived_anew() {
-    let folder = tempfile::tempdir().unwrap();
-    let netlist = "module t (clk, a, y);\n input clk, a; output y; wire d, n;\n\
-                   DFFPOSX1 r (.CLK(clk), .D(d), .Q(y));\n XOR2X1 x (.A(y), .B(a), .Y(d));\n INVX1 i (.A(y), .Y(n));\nendmodule\n";
-    std::fs::write(folder.path().join("t.v"), netlist).unwrap();
-    let told = |register: &str, port: &str| {
-        let script = format!(
-            "read_liberty /usr/share/qflow/tech/osu018/osu018_stdcells.lib\nread_verilog t.v\nlink_design t\n\
-             create_clock -name clk -period 8 [get_ports clk]\nsta::set_power_input_port_activity [get_ports a] {port} 0.5\n\
-             sta::set_power_pin_activity [get_pins r/Q] {register}\nreport_power -digits 6 -instances [get_cells *]\n"
-        );
-        std::fs::write(folder.path().join("s.tcl"), script).unwrap();
-        let sta = std::process::Command::new("sta")
-            .args(["-no_splash", "-exit", "s.tcl"])
-            .current_dir(folder.path())
-            .output();
-        let text = String::from_utf8(sta.expect("opensta is installed by tests/run").stdout).unwrap();
-        let lines: Vec<String> = text.lines().filter(|line| line.contains('e')).map(str::to_owned).collect();
-        assert!(
-            lines.iter().filter(|line| [" r", " x", " i"].iter().any(|end| line.ends_with(end))).count() == 3,
-            "{text}"
-        );
-        lines
-    };
-    assert_eq!(
-        told("0.0 0.0", "0.3"),
-        told("1.0 0.5", "0.3"),
-        "docs/energy.md says that a register's transitions are not kept"
-    );
-    assert_ne!(told("0.0 0.0", "0.3"), told("0.0 0.0", "0.9"), "those of a port are");
 }

@@ -31,11 +31,6 @@ impl Cache {
         (self.found.load(Ordering::Relaxed), self.done.load(Ordering::Relaxed))
     }
 
-    /// A folder for files of a moment.
-    pub(crate) fn scratch(&self) -> &Path {
-        &self.scratch
-    }
-
     /// The folder with the results `keep` of the step that `key` names; `work` makes them where it has not been done.
     pub(crate) fn step(
         &self,

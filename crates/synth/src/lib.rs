@@ -45,7 +45,7 @@ pub use packed::Packed;
 pub use part::{Part, UnknownPart};
 pub use report::{Mhz, Outcome, Seed, UnitCells};
 pub use standard_cells::{
-    Activity, Gates, Library, LibraryError, Placeless, Power, UnitArea, UnitPower, gates, power,
+    GateRun, Gates, Library, LibraryError, Placeless, Power, UNSETTLED, UnitArea, UnitPower, gates, power,
 };
 pub use target::{TARGETS, Target};
 pub use timing::{CriticalPath, Point};

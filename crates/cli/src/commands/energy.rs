@@ -10,13 +10,12 @@ use crate::verdict::Verdict;
 use anyhow::Result;
 use std::path::PathBuf;
 
-/// Draw the input with the machine's netlist, count the transitions of its registers, and compute area, clock and energy in
-/// standard cells.
+/// Draw the input with the machine's gates, count every transition of every net, and compute area, clock and energy in standard
+/// cells.
 ///
-/// Yosys maps the Verilog onto the cells of OSU's library for 0.18 um, or of your own; OpenSTA computes the clock and the power. It is
-/// given the transitions of every register and port; version 2.0.17 takes those of the ports and derives the others
-/// (docs/energy.md). There is no layout: wires and the tree of the clock cost nothing. The memories outside the machine are
-/// not counted. The figures compare machines; they are no promise of a chip.
+/// Yosys maps the Verilog onto the cells of OSU's library for 0.18 um, or of your own. OpenSTA computes the clock. The gates are
+/// compared with the netlist in every cycle (docs/energy.md). There is no layout: wires and the tree of the clock cost nothing.
+/// The memories outside the machine are not counted. The figures compare machines; they are no promise of a chip.
 ///
 /// Tools: apt-get install yosys opensta qflow-tech-osu018.
 #[derive(clap::Args)]

@@ -1,21 +1,28 @@
 //! From Verilog to gates, and the longest path through them.
 
 use super::library::Library;
+use super::written::{Module, Placed, modules};
 use crate::cache::Cache;
 use crate::design::Design;
 use edgewalk_tool::{Stop, run};
-use serde::{Deserialize, Serialize};
-use std::collections::BTreeMap;
-use std::path::{Path, PathBuf};
+use serde::Serialize;
+use std::collections::{BTreeMap, BTreeSet};
+use std::fmt::Write as _;
+use std::path::Path;
 use std::process::Command;
 use std::time::Duration;
 
+/// Name of what joins the units.
+pub(super) const JOINTS: &str = "joints";
 /// Files of the step.
 const CELLS: &str = "cells.lib";
 const VERILOG: &str = "gates.v";
 const WRITTEN: &str = "gates.json";
+const ENCODED: &str = "encoded.txt";
 const MODULES: &str = "modules.json";
 const TIMING: &str = "timing.txt";
+/// Separates the longest path from the transition times in what OpenSTA prints.
+const SLEWS: &str = "Transition times:";
 /// The clock that the tool is asked for, ns; the path found does not depend on it.
 const PERIOD: f64 = 10.0;
 
@@ -24,8 +31,9 @@ const PERIOD: f64 = 10.0;
 pub struct Gates {
     /// The design's top module.
     pub(super) top: String,
-    pub(super) verilog: PathBuf,
     pub(super) modules: BTreeMap<String, Module>,
+    /// The longest transition times of output pins by path, of rise and fall, ns.
+    pub(super) slews: BTreeMap<String, [f64; 2]>,
     /// What is known of it without a frame.
     pub placeless: Placeless,
 }
@@ -62,30 +70,6 @@ pub struct UnitArea {
     pub flip_flops: u64,
 }
 
-/// A module of the gate netlist.
-#[derive(Debug, Default, Serialize, Deserialize)]
-pub(super) struct Module {
-    /// Cells of the library by type.
-    pub cells: BTreeMap<String, u64>,
-    /// Instances: name and module.
-    pub instances: Vec<(String, String)>,
-    /// Flip-flops.
-    pub registers: Vec<Register>,
-    /// Input bits by name.
-    pub inputs: Vec<String>,
-}
-
-/// A flip-flop of a module.
-#[derive(Debug, Serialize, Deserialize)]
-pub(super) struct Register {
-    /// Name of the cell.
-    pub cell: String,
-    /// The pin at which its value is seen.
-    pub output: String,
-    /// Names of the bit at that pin, as the Verilog has them.
-    pub names: Vec<String>,
-}
-
 /// Synthesises the design. The steps are kept in the cache.
 ///
 /// # Errors
@@ -95,12 +79,13 @@ pub fn gates(design: &Design, library: &Library, cache: &Cache, limit: Duration)
     let sta = "OpenSTA ".to_owned() + &first_line(&run(Command::new("sta").arg("-version"), limit)?);
     let top = &design.module;
     let constraints = constraints(library);
-    // Wires of one bit each: OpenSTA reads no concatenations. Cells get names without marks.
+    // Wires of one bit each: OpenSTA reads no concatenations. Cells get names without marks. The JSON comes before wires lose their
+    // second names, by which the netlist may know them.
     let script = format!(
-        "synth -top {top}; dfflibmap -liberty {CELLS}; abc -liberty {CELLS} -constr constraints; splitnets -ports; \
-         opt_clean -purge; rename -enumerate -pattern cell_%; write_verilog -noattr {VERILOG}; write_json {WRITTEN}"
+        "synth -top {top} -encfile {ENCODED}; dfflibmap -liberty {CELLS}; abc -liberty {CELLS} -constr constraints; splitnets -ports; \
+         rename -enumerate -pattern cell_% c:*; write_json {WRITTEN}; opt_clean -purge; write_verilog -noattr {VERILOG}"
     );
-    let key = [&*design.hash, &yosys, &library.hash, &script, &constraints, "without constants"];
+    let key = [&*design.hash, &yosys, &library.hash, &script, &constraints, "with ports and wires"];
     let folder = cache.step(&key, &[VERILOG, MODULES], |folder| {
         let write = |name: &str, text: &str| {
             std::fs::write(folder.join(name), text).map_err(|error| Stop::broken(name, &error))
@@ -112,8 +97,9 @@ pub fn gates(design: &Design, library: &Library, cache: &Cache, limit: Duration)
         write("constraints", &constraints)?;
         let script = format!("read_verilog {}; {script}", design.sources().collect::<Vec<_>>().join(" "));
         run(Command::new("yosys").args(["-q", "-p", &script]).current_dir(folder), limit)?;
-        write(VERILOG, &without_constants(&text(&folder.join(VERILOG))?))?;
-        let modules = serde_json::to_string(&modules(&text(&folder.join(WRITTEN))?, library)?);
+        // Yosys writes none where there is no state machine.
+        let encoded = std::fs::read_to_string(folder.join(ENCODED)).unwrap_or_default();
+        let modules = serde_json::to_string(&modules(&text(&folder.join(WRITTEN))?, &encoded, library)?);
         write(MODULES, &modules.map_err(|error| Stop::broken(MODULES, &error.into()))?)
     })?;
     let modules: BTreeMap<String, Module> = serde_json::from_str(&text(&folder.join(MODULES))?)
@@ -121,21 +107,26 @@ pub fn gates(design: &Design, library: &Library, cache: &Cache, limit: Duration)
     // Absolute: OpenSTA works in another folder.
     let verilog = std::path::absolute(folder.join(VERILOG)).map_err(|error| Stop::broken(VERILOG, &error))?;
     let timing = cache.step(&[&key[..], &[&*sta]].concat(), &[TIMING], |folder| {
-        let script = format!("{}report_checks -path_delay max -digits 4\n", opened(&verilog, top, PERIOD));
+        let used = modules.values().flat_map(|module| &module.cells).map(|cell| cell.of.as_str());
+        let outputs: BTreeSet<&str> = used.flat_map(|cell| library.outputs(cell)).collect();
+        let mut script = format!(
+            "{}report_checks -path_delay max -digits 4\nputs {{{SLEWS}}}\nset sta_report_default_digits 9\n",
+            opened(&verilog, top, PERIOD)
+        );
+        for output in outputs {
+            // Writing to a string cannot fail.
+            _ = writeln!(script, "foreach pin [get_pins -hierarchical */{output}] {{ report_slews $pin }}");
+        }
         std::fs::write(folder.join(TIMING), sta_run(folder, library, &script, limit)?)
             .map_err(|error| Stop::broken(TIMING, &error))
     })?;
-    let (ns, ends) = longest(&text(&timing.join(TIMING))?)?;
-    let path = ends.map(|cell| named(&modules, top, &cell));
+    let printed = text(&timing.join(TIMING))?;
+    let (checks, times) = printed.split_once(SLEWS).unwrap_or((&printed, ""));
+    let slews = times.lines().filter_map(slew).collect();
+    let (ns, ends) = longest(checks)?;
+    let path = ends.map(|cell| named(&modules, top, library, &cell));
     let placeless = counted(design, library, &modules, [yosys, sta], (ns, path))?;
-    Ok(Gates { top: top.clone(), verilog, modules, placeless })
-}
-
-/// The gates without `assign NAME = 1'h0;` and its like. OpenSTA 2.0.17 crashes in `report_power` where gates of another
-/// module read such a constant. A wire without a driver has no transition either.
-fn without_constants(verilog: &str) -> String {
-    let constant = |line: &&str| line.starts_with("  assign ") && line.contains("= 1'h");
-    verilog.lines().filter(|line| !constant(line)).fold(String::new(), |text, line| text + line + "\n")
+    Ok(Gates { top: top.clone(), modules, slews, placeless })
 }
 
 /// The world outside the design, for ABC: an inverter drives each input, and each output has a load, fF.
@@ -144,7 +135,7 @@ fn constraints(library: &Library) -> String {
 }
 
 /// Commands of OpenSTA that open the netlist with a clock of that period, ns.
-pub(super) fn opened(verilog: &Path, top: &str, period: f64) -> String {
+fn opened(verilog: &Path, top: &str, period: f64) -> String {
     // The library's own units may be others.
     format!(
         "read_liberty {CELLS}\nset_cmd_units -time ns -power W\nread_verilog {{{}}}\nlink_design {top}\n\
@@ -154,12 +145,7 @@ pub(super) fn opened(verilog: &Path, top: &str, period: f64) -> String {
 }
 
 /// Runs commands of OpenSTA. It ends with success whatever a command says, so its errors are looked for.
-pub(super) fn sta_run(
-    folder: &Path,
-    library: &Library,
-    script: &str,
-    limit: Duration,
-) -> Result<String, Stop> {
+fn sta_run(folder: &Path, library: &Library, script: &str, limit: Duration) -> Result<String, Stop> {
     const SCRIPT: &str = "run.tcl";
     for (name, text) in [(SCRIPT, script), (CELLS, &library.text)] {
         std::fs::write(folder.join(name), text).map_err(|error| Stop::broken(name, &error))?;
@@ -175,82 +161,6 @@ pub(super) fn sta_run(
     }
 }
 
-/// A netlist of `write_json`, as far as it is needed.
-#[derive(Deserialize)]
-struct Written {
-    modules: BTreeMap<String, WrittenModule>,
-}
-
-#[derive(Deserialize)]
-struct WrittenModule {
-    #[serde(default)]
-    attributes: BTreeMap<String, serde_json::Value>,
-    ports: BTreeMap<String, Port>,
-    cells: BTreeMap<String, Cell>,
-    netnames: BTreeMap<String, Net>,
-}
-
-#[derive(Deserialize)]
-struct Port {
-    direction: String,
-}
-
-#[derive(Deserialize)]
-struct Cell {
-    r#type: String,
-    connections: BTreeMap<String, Vec<Bit>>,
-}
-
-#[derive(Deserialize)]
-struct Net {
-    hide_name: u8,
-    bits: Vec<Bit>,
-}
-
-/// A wire's number, or a constant.
-#[derive(Clone, PartialEq, Eq, PartialOrd, Ord, Deserialize)]
-#[serde(untagged)]
-enum Bit {
-    Wire(u64),
-    Constant(String),
-}
-
-fn modules(json: &str, library: &Library) -> Result<BTreeMap<String, Module>, Stop> {
-    let broken = |why: String| Stop::Broken { tool: "yosys".to_owned(), lines: vec![why] };
-    let written: Written =
-        serde_json::from_str(json).map_err(|error| broken(format!("{WRITTEN} cannot be read: {error}")))?;
-    let real = written.modules.iter().filter(|(_, module)| !module.attributes.contains_key("blackbox"));
-    let mut modules = BTreeMap::new();
-    for (name, of) in real {
-        let mut module = Module::default();
-        let mut names: BTreeMap<&Bit, Vec<String>> = BTreeMap::new();
-        for (name, net) in of.netnames.iter().filter(|(_, net)| net.hide_name == 0) {
-            if let [bit] = &net.bits[..] {
-                names.entry(bit).or_default().push(name.clone());
-            }
-        }
-        for (cell, Cell { r#type, connections }) in &of.cells {
-            if written.modules.contains_key(r#type) && library.area(r#type).is_none() {
-                module.instances.push((cell.clone(), r#type.clone()));
-                continue;
-            }
-            if library.area(r#type).is_none() {
-                return Err(broken(format!("{name} has cells {type}, which the library has not")));
-            }
-            *module.cells.entry(r#type.clone()).or_default() += 1;
-            if let Some(output) = library.register(r#type) {
-                let bit = connections.get(output).and_then(|bits| bits.first());
-                let names = bit.and_then(|bit| names.get(bit)).cloned().unwrap_or_default();
-                module.registers.push(Register { cell: cell.clone(), output: output.to_owned(), names });
-            }
-        }
-        let inputs = of.ports.iter().filter(|(name, port)| port.direction == "input" && *name != "clk");
-        module.inputs = inputs.map(|(name, _)| name.clone()).collect();
-        modules.insert(name.clone(), module);
-    }
-    Ok(modules)
-}
-
 fn counted(
     design: &Design,
     library: &Library,
@@ -260,9 +170,9 @@ fn counted(
 ) -> Result<Placeless, Stop> {
     let top = &modules[&design.module];
     let own = |module: &Module| {
-        let area: f64 =
-            module.cells.iter().map(|(cell, n)| library.area(cell).unwrap_or(0.0) * *n as f64).sum();
-        (area, module.registers.len() as u64, module.cells.values().sum::<u64>())
+        let area: f64 = module.cells.iter().filter_map(|cell| library.area(&cell.of)).sum();
+        let flip_flops = module.cells.iter().filter(|cell| library.register(&cell.of).is_some());
+        (area, flip_flops.count() as u64, module.cells.len() as u64)
     };
     let unit = |name: &str, (area_um2, flip_flops, _): (f64, u64, u64)| UnitArea {
         unit: name.to_owned(),
@@ -270,15 +180,15 @@ fn counted(
         flip_flops,
     };
     let mut all = own(top);
-    let mut units = vec![unit("joints", all)];
-    for (instance, module) in &top.instances {
+    let mut units = vec![unit(JOINTS, all)];
+    for Placed { name: instance, of: module, .. } in &top.instances {
         let mut sum = (0.0, 0, 0);
         let mut open = vec![module];
         while let Some(module) = open.pop() {
             let module = &modules[module];
             let (area, flip_flops, cells) = own(module);
             sum = (sum.0 + area, sum.1 + flip_flops, sum.2 + cells);
-            open.extend(module.instances.iter().map(|(_, module)| module));
+            open.extend(module.instances.iter().map(|instance| &instance.of));
         }
         all = (all.0 + sum.0, all.1 + sum.1, all.2 + sum.2);
         units.push(unit(instance.trim_start_matches("u_"), sum));
@@ -311,18 +221,26 @@ fn longest(report: &str) -> Result<(f64, [String; 2]), Stop> {
     }
 }
 
-/// `u_setup/lane0/_7_` by the name of its register: `setup.lane0.acc[3]`.
-fn named(modules: &BTreeMap<String, Module>, top: &str, path: &str) -> String {
+/// A line of `report_slews`: `u_span/cell_7/Y ^ 0.040:0.070 v 0.030:0.060`, the shortest and the longest rise and fall.
+fn slew(line: &str) -> Option<(String, [f64; 2])> {
+    let words: Vec<&str> = line.split_whitespace().collect();
+    let [pin, "^", rise, "v", fall] = words[..] else { return None };
+    let [rise, fall] = [rise, fall].map(|times| times.split_once(':')?.1.parse::<f64>().ok());
+    Some((pin.to_owned(), [rise?, fall?]))
+}
+
+/// `u_setup/lane0/cell_7` by the name of its register: `setup.lane0.acc[3]`.
+fn named(modules: &BTreeMap<String, Module>, top: &str, library: &Library, path: &str) -> String {
     let mut parts: Vec<&str> = path.split('/').collect();
     let cell = parts.pop().unwrap_or_default();
     let mut module = modules.get(top);
     for part in &parts {
-        let instance = module.and_then(|module| module.instances.iter().find(|(name, _)| name == part));
-        module = instance.and_then(|(_, module)| modules.get(module));
+        let instance = module.and_then(|module| module.instances.iter().find(|of| of.name == *part));
+        module = instance.and_then(|instance| modules.get(&instance.of));
     }
-    let register = module.and_then(|module| module.registers.iter().find(|of| of.cell == cell));
-    let name = register.and_then(|of| of.names.first()).map_or(cell, String::as_str);
-    parts.push(name);
+    let placed = module.and_then(|module| module.cells.iter().find(|of| of.name == cell));
+    let output = placed.and_then(|of| of.pins.get(library.register(&of.of)?));
+    parts.push(output.and_then(|bit| module?.name(bit)).unwrap_or(cell));
     parts.join(".").trim_start_matches("u_").to_owned()
 }
 

@@ -1,6 +1,5 @@
-//! The Liberty format: groups `KIND (NAME) { ... }` with values `KEY : VALUE ;`, as text with line numbers.
-//!
-//! Not kept: lists `KEY (A, B);`, as the tables of delay and power are. Yosys and OpenSTA read these from the file.
+//! The Liberty format: groups `KIND (NAME) { ... }` with values `KEY : VALUE ;` and lists `KEY (A, B);`, as text with line
+//! numbers.
 
 /// A group, e.g. `pin (A) { ... }`.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -13,6 +12,8 @@ pub(super) struct Group {
     pub line: usize,
     /// Values by key, with their lines, without quotes.
     values: Vec<(String, String, usize)>,
+    /// Lists by key, part by part, with their lines, without quotes.
+    lists: Vec<(String, Vec<String>, usize)>,
     /// The groups within.
     pub groups: Vec<Group>,
 }
@@ -22,6 +23,12 @@ impl Group {
     pub fn value(&self, key: &str) -> Option<(&str, usize)> {
         let found = self.values.iter().find(|(name, ..)| name == key);
         found.map(|(_, value, line)| (&**value, *line))
+    }
+
+    /// The first list of that key, and its line.
+    pub fn list(&self, key: &str) -> Option<(&[String], usize)> {
+        let found = self.lists.iter().find(|(name, ..)| name == key);
+        found.map(|(_, parts, line)| (&**parts, *line))
     }
 
     /// The group's first name; empty if it has none.
@@ -73,6 +80,8 @@ pub(super) fn parse(text: &str) -> Result<Group, Wrong> {
                                 return Err(Wrong { line, what });
                             }
                             open.push(Group { kind: kind.to_owned(), names, line, ..Group::default() });
+                        } else {
+                            group.lists.push((kind.to_owned(), names, line));
                         }
                     }
                     (other, line) => {
@@ -313,6 +322,8 @@ mod tests {
         let pin = cell.of("pin").next().expect("a pin");
         assert_eq!((pin.name(), pin.value("x"), pin.line), ("B[3:0]", Some(("VDD + 0.5", 7)), 7));
         assert_eq!(cell.of("ff").next().expect("registers").names, ["I", "N"]);
+        let list = library.list("capacitive_load_unit").expect("a list");
+        assert_eq!((list.0, list.1), (&["1".to_owned(), "pf".to_owned()][..], 4));
     }
 
     #[test]

@@ -3,6 +3,7 @@
 //! A cell is known by its function. These are needed: a flip-flop of the rising edge without set and reset, an inverter,
 //! and a NAND of two inputs, in whose area the others are counted.
 
+use super::cell::{Cell, Unusable, number};
 use super::function::table;
 use super::liberty::{Group, Wrong, cut, parse};
 use edgewalk_tool::Stop;
@@ -29,10 +30,29 @@ pub struct Library {
     areas: BTreeMap<String, f64>,
     /// Cells with a register, and the pin at which the register's value is seen.
     registers: BTreeMap<String, String>,
+    /// What is computed with each cell; of those that no design can have, why.
+    cells: BTreeMap<String, Result<Cell, &'static str>>,
+    /// What the numbers of the cells count.
+    pub(super) units: Units,
     /// The smallest NAND of two inputs, and its area.
     gate: (String, f64),
     /// Name of the inverter that drives the inputs of a design.
     pub(super) inverter: String,
+}
+
+/// What numbers of a library count.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Units {
+    /// The supply, V.
+    pub volts: f64,
+    /// A capacitance of 1, F.
+    pub farads: f64,
+    /// An energy of 1, J.
+    pub joules: f64,
+    /// A time of 1, ns.
+    pub ns: f64,
+    /// A leakage of 1, W.
+    pub watts: f64,
 }
 
 /// A file that is no usable library.
@@ -110,6 +130,16 @@ impl Library {
         let at = |Wrong { line, what }| LibraryError::Line { file: file.to_owned(), line, what };
         let library = parse(&text).map_err(at)?;
         let areas = areas(&library).map_err(at)?;
+        let units = Units::of(&library).map_err(at)?;
+        let mut cells = BTreeMap::new();
+        for cell in library.of("cell") {
+            let read = match Cell::read(cell, &library) {
+                Ok(read) => Ok(read),
+                Err(Unusable::Kind(why)) => Err(why),
+                Err(Unusable::Wrong(wrong)) => return Err(at(wrong)),
+            };
+            cells.insert(cell.name().to_owned(), read);
+        }
         let (mut registers, mut gates, mut inverters) = (BTreeMap::new(), Vec::new(), Vec::new());
         let mut rising = false;
         for cell in library.of("cell") {
@@ -137,7 +167,7 @@ impl Library {
             inverters.first().ok_or_else(|| whole("has no inverter: it drives the inputs"))?.0.to_owned();
         let hash = Sha256::digest(&text).iter().map(|byte| format!("{byte:02x}")).collect();
         let name = library.name().to_owned();
-        Ok(Library { hash, name, areas, registers, gate, inverter, text })
+        Ok(Library { hash, name, areas, registers, cells, units, gate, inverter, text })
     }
 
     /// Name of the library, as its file tells it.
@@ -162,9 +192,80 @@ impl Library {
         self.areas.get(cell).copied()
     }
 
+    /// The cell, for its value and its energy.
+    pub(super) fn cell(&self, name: &str) -> Result<&Cell, Stop> {
+        let why = match self.cells.get(name) {
+            Some(Ok(cell)) => return Ok(cell),
+            Some(Err(why)) => why,
+            None => "is not in the library",
+        };
+        let line = format!(
+            "it took the cell `{name}`, which {why}; without that cell in the library it takes others"
+        );
+        Err(Stop::Broken { tool: "yosys".to_owned(), lines: vec![line] })
+    }
+
+    /// Names of the cell's outputs.
+    pub(super) fn outputs(&self, cell: &str) -> impl Iterator<Item = &str> {
+        let cell = self.cells.get(cell).and_then(|cell| cell.as_ref().ok());
+        cell.into_iter().flat_map(|cell| &cell.pins[cell.inputs..]).map(|pin| pin.name.as_str())
+    }
+
     /// The pin at which the cell's register is seen, if it has a register.
     pub(super) fn register(&self, cell: &str) -> Option<&str> {
         self.registers.get(cell).map(String::as_str)
+    }
+}
+
+impl Units {
+    fn of(library: &Group) -> Result<Units, Wrong> {
+        let wrong = |line, what: String| Wrong { line, what };
+        // A number and a unit behind it: `1ns`.
+        let scaled = |key: &str, units: [(&str, f64); 4], default: f64| {
+            let Some((value, line)) = library.value(key) else { return Ok(default) };
+            let text = value.trim();
+            let (number, unit) = text.split_at(text.find(|c: char| c.is_alphabetic()).unwrap_or(text.len()));
+            let unit = units.iter().find(|(name, _)| name.eq_ignore_ascii_case(unit.trim()));
+            match (number.trim().parse::<f64>(), unit) {
+                (Ok(number), Some((_, scale))) if number.is_finite() && number > 0.0 => Ok(number * scale),
+                _ => {
+                    let names = units.map(|(name, _)| name).join(", ");
+                    let what =
+                        format!("found {key} `{}`; permitted: a number and one of {names}", cut(value));
+                    Err(wrong(line, what))
+                }
+            }
+        };
+        let ns = scaled("time_unit", [("ns", 1.0), ("ps", 1e-3), ("fs", 1e-6), ("us", 1e3)], 1.0)?;
+        let volt = scaled("voltage_unit", [("V", 1.0), ("mV", 1e-3), ("uV", 1e-6), ("kV", 1e3)], 1.0)?;
+        let watts =
+            scaled("leakage_power_unit", [("nW", 1e-9), ("pW", 1e-12), ("uW", 1e-6), ("mW", 1e-3)], 1e-9)?;
+        let Some((parts, line)) = library.list("capacitive_load_unit") else {
+            let what = "the library has no capacitive_load_unit; needed: capacitive_load_unit (1, pf);";
+            return Err(wrong(library.line, what.to_owned()));
+        };
+        let found = match parts {
+            [number, unit] => {
+                let scale = [("pf", 1e-12), ("ff", 1e-15)].into_iter();
+                let mut scale = scale;
+                let scale = scale.find(|(name, _)| name.eq_ignore_ascii_case(unit));
+                number.parse::<f64>().ok().filter(|number| number.is_finite() && *number > 0.0).zip(scale)
+            }
+            _ => None,
+        };
+        let Some((count, (_, scale))) = found else {
+            let what = format!(
+                "found capacitive_load_unit ({}); permitted: a number, and pf or ff",
+                cut(&parts.join(", "))
+            );
+            return Err(wrong(line, what));
+        };
+        let farads = count * scale;
+        let Some(volts) = number(library, "nom_voltage")?.filter(|volts| *volts > 0.0) else {
+            let what = "the library has no nom_voltage above 0; needed: nom_voltage : 1.8;";
+            return Err(wrong(library.line, what.to_owned()));
+        };
+        Ok(Units { volts: volts * volt, farads, joules: farads * volt * volt, ns, watts })
     }
 }
 
@@ -274,7 +375,8 @@ mod tests {
             flip_flop("both", &format!("{qn} {q}")),
             flip_flop("inverted", qn),
         ];
-        let text = format!("library (l) {{ {} }}", cells.join("\n"));
+        let text =
+            format!("library (l) {{ nom_voltage : 1; capacitive_load_unit (1, pf); {} }}", cells.join("\n"));
         let library = Library::of(text, "l.lib").expect("a library");
         assert_eq!((library.inverter.as_str(), library.gate(), library.gate_area()), ("strong", "nand", 4.5));
         assert_eq!((library.register("both"), library.register("inverted")), (Some("OUT"), Some("INV")));

@@ -1,22 +1,23 @@
 //! Power of the gates while a frame is drawn.
+//!
+//! Each transition of a net takes energy at three places:
+//!
+//! | place | energy |
+//! |---|---|
+//! | the net | half of the capacitance of all pins on it, times the square of the voltage; counted at the cell that drives it |
+//! | within the cell that drives it | the library's table, at the net's load and the transition time of the input that was the cause |
+//! | within each cell that reads it | the library's table, at the net's transition time |
+//!
+//! Where several inputs change together with an output, each has its share by how often it did so. The clock moves twice a
+//! cycle; its net is counted at the flip-flops. Nets that the design's ports drive are not counted: others drive them.
 
-use super::gates::{Gates, Module, Register, opened, sta_run};
+use super::cell::{Cell, Energy, Pin};
+use super::gate_run::GateRun;
+use super::gates::{Gates, JOINTS, UnitArea};
 use super::library::Library;
-use crate::cache::Cache;
 use edgewalk_tool::Stop;
 use serde::Serialize;
 use std::collections::BTreeMap;
-use std::fmt::Write as _;
-use std::time::Duration;
-
-/// What a bit did, a cycle: transitions, and the share of cycles in which it was 1.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Activity {
-    /// Transitions a cycle.
-    pub transitions: f64,
-    /// Share of cycles at 1.
-    pub high: f64,
-}
 
 /// Power of a design at a clock.
 #[derive(Clone, Debug, Serialize)]
@@ -25,8 +26,21 @@ pub struct Power {
     pub watts: f64,
     /// Of these, watts that flow without any transition.
     pub leakage_watts: f64,
-    /// Flip-flops whose transitions were counted in the frame; the tool derives those of the others from their inputs.
+    /// Of these, watts for the clock: its net and what moves with it in the flip-flops.
+    pub clock_watts: f64,
+    /// Of the clock's watts, those of cycles in which no flip-flop of the unit moves: what a clock that stops for such a unit
+    /// would not take.
+    pub still_watts: f64,
+    /// Of these, watts for the other transitions at flip-flops: their inputs, their outputs, and the nets these drive.
+    pub flip_flop_watts: f64,
+    /// Of these, watts for the transitions of gates and the nets they drive.
+    pub gate_watts: f64,
+    /// Transitions of all nets a cycle, without the clock.
+    pub transitions: f64,
+    /// Flip-flops whose values are those of the netlist; the others' are computed from the gates.
     pub counted: u64,
+    /// Outputs and next states of flip-flops that were compared with the netlist, cycle by cycle; all are equal.
+    pub compared: u64,
     /// Watts of each unit; `joints` is what joins them.
     pub units: Vec<UnitPower>,
 }
@@ -38,83 +52,119 @@ pub struct UnitPower {
     pub unit: String,
     /// Watts of the unit.
     pub watts: f64,
+    /// Of these, watts for the clock.
+    pub clock_watts: f64,
+    /// Share of the cycles in which none of its flip-flops moves; null if it has none.
+    pub still: Option<f64>,
 }
 
-/// Power at a clock of that period, ns. `activity` names bits as the Verilog does: `u_setup.lane0.acc[3]`.
+/// What is charged, by its cause, J.
+#[derive(Default)]
+pub(super) struct Joules {
+    pub clock: f64,
+    pub flip_flops: f64,
+    pub gates: f64,
+}
+
+/// Power of the run at a clock of that period, ns.
 ///
 /// # Errors
-/// OpenSTA is missing, fails or takes too long.
-pub fn power(
-    gates: &Gates,
-    library: &Library,
-    activity: &BTreeMap<String, Activity>,
-    period: f64,
-    cache: &Cache,
-    limit: Duration,
-) -> Result<Power, Stop> {
-    // The documented command `set_power_activity -pins` of version 2.0.17 fails, so those beneath it are called.
-    let mut script = opened(&gates.verilog, &gates.top, period);
-    for input in &gates.modules[&gates.top].inputs {
-        if let Some(Activity { transitions, high }) = activity.get(input) {
-            let port = input.replace('[', "\\[").replace(']', "\\]");
-            // Writing to a string cannot fail.
-            _ = writeln!(
-                script,
-                "sta::set_power_input_port_activity [get_ports {{{port}}}] {transitions:.9} {high:.9}"
-            );
-        }
+/// The gates gave an output or a flip-flop another value than the netlist.
+pub fn power(gates: &Gates, library: &Library, run: &GateRun, period: f64) -> Result<Power, Stop> {
+    let (flat, counts) = run.counted();
+    if let Some((bit, cycle)) = &counts.differs {
+        let line = format!("its gates give {bit} another value than the netlist in cycle {cycle}");
+        return Err(Stop::Broken { tool: "yosys".to_owned(), lines: vec![line] });
     }
-    let mut counted = 0;
-    registers(&gates.modules, &gates.top, "", &mut |pin, names| {
-        let found = names.iter().find_map(|name| activity.get(name));
-        if let Some(Activity { transitions, high }) = found {
-            counted += 1;
-            _ = writeln!(script, "sta::set_power_pin_activity [get_pins {pin}] {transitions:.9} {high:.9}");
-        }
-    });
-    script.push_str("report_power -digits 9 -instances [get_cells -hierarchical *]\n");
-    let printed = sta_run(cache.scratch(), library, &script, limit)?;
-    let (mut all, mut leakage) = (0.0, 0.0);
-    let mut units: BTreeMap<String, f64> = BTreeMap::new();
-    let mut cells = 0;
-    for line in printed.lines() {
-        let words: Vec<&str> = line.split_whitespace().collect();
-        let [internal, switching, leaks, total, cell] = words[..] else { continue };
-        let numbers = [internal, switching, leaks, total].map(str::parse::<f64>);
-        let [Ok(_), Ok(_), Ok(leaks), Ok(total)] = numbers else { continue };
-        let unit = cell.split_once('/').map_or("joints", |(unit, _)| unit.trim_start_matches("u_"));
-        (all, leakage, cells) = (all + total, leakage + leaks, cells + 1);
-        // Instances of modules are told of too, without power of their own.
-        if cell.contains('/') || total > 0.0 {
-            *units.entry(unit.to_owned()).or_default() += total;
-        }
+    let units = library.units;
+    let (loads, slews) = flat.surroundings(gates, library);
+    let cycles = counts.cycles as f64;
+    let mut all = Joules::default();
+    let mut leakage = 0.0;
+    // Watts, and those of the clock.
+    let mut watts: BTreeMap<&str, [f64; 2]> = BTreeMap::new();
+    let seconds = cycles * period * 1e-9;
+    for (of, causes) in flat.cells.iter().zip(&counts.causes) {
+        let joules = spent(of.cell, &of.nets, &counts.transitions, causes, cycles, (&loads, &slews), library);
+        let leaks = of.cell.leakage * units.watts;
+        leakage += leaks;
+        let unit = watts.entry(&of.unit).or_default();
+        unit[0] += (joules.clock + joules.flip_flops + joules.gates) / seconds + leaks;
+        unit[1] += joules.clock / seconds;
+        all.clock += joules.clock;
+        all.flip_flops += joules.flip_flops;
+        all.gates += joules.gates;
     }
-    if cells < gates.placeless.cells {
-        let told = format!("it tells the power of {cells} cells of {}", gates.placeless.cells);
-        return Err(Stop::Broken { tool: "sta".to_owned(), lines: vec![told] });
-    }
-    let order = gates.placeless.units.iter();
-    let units = order.map(|area| UnitPower {
-        unit: area.unit.clone(),
-        watts: units.get(&area.unit).copied().unwrap_or(0.0),
-    });
-    Ok(Power { watts: all, leakage_watts: leakage, counted, units: units.collect() })
+    let [clock_watts, flip_flop_watts, gate_watts] =
+        [all.clock, all.flip_flops, all.gates].map(|joules| joules / seconds);
+    let unit = |area: &UnitArea| {
+        let name = if area.unit == JOINTS { "" } else { &area.unit };
+        let [watts, clock_watts] = watts.get(name).copied().unwrap_or_default();
+        let still = counts.still.get(name).map(|still| *still as f64 / (cycles - 1.0));
+        UnitPower { unit: area.unit.clone(), watts, clock_watts, still }
+    };
+    let units: Vec<UnitPower> = gates.placeless.units.iter().map(unit).collect();
+    Ok(Power {
+        watts: clock_watts + flip_flop_watts + gate_watts + leakage,
+        leakage_watts: leakage,
+        clock_watts,
+        still_watts: units.iter().map(|unit| unit.clock_watts * unit.still.unwrap_or(0.0)).sum(),
+        flip_flop_watts,
+        gate_watts,
+        transitions: counts.transitions.iter().sum::<u64>() as f64 / cycles,
+        counted: counts.known,
+        compared: counts.compared,
+        units,
+    })
 }
 
-/// Visits each flip-flop: the path of its output pin for OpenSTA, and the paths of that bit by each name.
-fn registers(
-    modules: &BTreeMap<String, Module>,
-    module: &str,
-    prefix: &str,
-    visit: &mut dyn FnMut(String, Vec<String>),
-) {
-    let of = &modules[module];
-    let dotted = prefix.replace('/', ".");
-    for Register { cell, output, names } in &of.registers {
-        let names = names.iter().map(|name| format!("{dotted}{name}")).collect();
-        visit(format!("{prefix}{cell}/{output}"), names);
+/// What a cell at these nets takes in the whole run.
+pub(super) fn spent(
+    cell: &Cell,
+    nets: &[usize],
+    transitions: &[u64],
+    causes: &[u64],
+    cycles: f64,
+    (loads, slews): (&[f64], &[[f64; 2]]),
+    library: &Library,
+) -> Joules {
+    let units = library.units;
+    let clock = cell.register.as_ref().map(|register| register.clock);
+    // The mean of rise and fall: a net does both equally often.
+    let half = |energy: &Energy, load: f64, [rises, falls]: [f64; 2]| {
+        let [rise, fall] = match energy.along {
+            Some(true) => [rises, falls],
+            Some(false) => [falls, rises],
+            None => [(rises + falls) / 2.0; 2],
+        };
+        (energy.rise.at(load, rise) + energy.fall.at(load, fall)) / 2.0 * units.joules
+    };
+    let charged = |capacitance: f64| capacitance * units.farads * units.volts * units.volts / 2.0;
+    let (mut for_clock, mut others) = (0.0, 0.0);
+    let mut counts = causes;
+    for (place, (Pin { capacitance, energies, .. }, net)) in cell.pins.iter().zip(nets).enumerate() {
+        let count;
+        (count, counts) = counts.split_at(energies.len());
+        if Some(place) == clock {
+            // An edge up and one down in every cycle; without a tree its transition time is 0.
+            let within: f64 = energies.iter().map(|energy| half(energy, 0.0, [0.0; 2])).sum();
+            for_clock += 2.0 * cycles * (within + charged(*capacitance));
+        } else if place < cell.inputs {
+            let each = energies.iter().zip(count);
+            others += each.map(|(energy, count)| *count as f64 * half(energy, 0.0, slews[*net])).sum::<f64>();
+        } else {
+            let moves = transitions[*net] as f64;
+            let together: u64 = count.iter().sum();
+            let share = |(energy, count): (&Energy, &u64)| {
+                let slew = energy.cause.map_or([0.0; 2], |cause| slews[nets[cause]]);
+                *count as f64 / together.max(1) as f64 * half(energy, loads[*net], slew)
+            };
+            let within: f64 = energies.iter().zip(count).map(share).sum();
+            others += moves * (within + charged(loads[*net]));
+        }
     }
-    for (instance, module) in &of.instances {
-        registers(modules, module, &format!("{prefix}{instance}/"), visit);
+    match clock {
+        Some(_) => Joules { clock: for_clock, flip_flops: others, gates: 0.0 },
+        None => Joules { clock: 0.0, flip_flops: 0.0, gates: others },
     }
 }
