@@ -3,6 +3,7 @@
 use crate::document::document;
 use crate::input::{Source, to_port};
 use crate::machine_args::MachineArgs;
+use crate::number::whole;
 use crate::suites::{self, Set, check_unit, of_input, only, stalls};
 use crate::verdict::Verdict;
 use crate::{Talk, own};
@@ -37,7 +38,7 @@ pub struct Args {
     #[arg(long, requires = "input")]
     adapt: bool,
     /// Take this many triangles, polygons and lines of the input, evenly spread; all of them if left out
-    #[arg(long, requires = "input", value_parser = clap::value_parser!(u64).range(1..))]
+    #[arg(long, requires = "input", value_parser = whole::<u64>(1..))]
     triangles: Option<u64>,
     /// Suites: hazards, corners, random, sphere, depth_never to depth_always, depth_unwritten; all suites of the units
     /// if left out. Machines with BLEND have blend_add and color_unwritten; with SHADOW light and light_off; with
@@ -58,10 +59,10 @@ pub struct Args {
     #[arg(long, value_parser = stalls)]
     stalls: Option<StallKind>,
     /// Seed of the random suite and of the stalls
-    #[arg(long, default_value_t = 1)]
+    #[arg(long, default_value_t = 1, value_parser = whole::<u64>(..))]
     seed: u64,
     /// Triangles of the random suite
-    #[arg(long, default_value_t = 100, value_parser = clap::value_parser!(u64).range(1..))]
+    #[arg(long, default_value_t = 100, value_parser = whole::<u64>(1..))]
     count: u64,
     /// Omit the tables for people, *.csv, which are more than half of the bytes
     #[arg(long)]

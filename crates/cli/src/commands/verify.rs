@@ -8,6 +8,7 @@ mod own;
 use crate::document::document;
 use crate::input::{Source, to_port};
 use crate::machine_args::MachineArgs;
+use crate::number::whole;
 use crate::suites::{directed, functions, of_input, only, stalls, warn_of_gaps};
 use crate::verdict::Verdict;
 use crate::{Talk, jobs, junit, progress};
@@ -48,13 +49,13 @@ pub struct Args {
     #[command(flatten)]
     source: Source,
     /// Take this many triangles, polygons and lines of the input, evenly spread
-    #[arg(long, default_value_t = 50, value_parser = clap::value_parser!(u64).range(1..))]
+    #[arg(long, default_value_t = 50, value_parser = whole::<u64>(1..))]
     triangles: u64,
     /// Stalls by the bench: none, mixed, late; the suite's own if left out
     #[arg(long, value_parser = stalls)]
     stalls: Option<StallKind>,
     /// Seconds that a simulator may compile, and again that it may run
-    #[arg(long, default_value_t = 300, value_parser = clap::value_parser!(u64).range(1..))]
+    #[arg(long, default_value_t = 300, value_parser = whole::<u64>(1..))]
     limit: u64,
     /// Compare model and netlist only
     #[arg(long)]
