@@ -9,7 +9,7 @@
 //                                                   └─> N channels: g, d0, d1, start ───────┘
 //             a lane holds a pair, whole + rest / M: quotient and exact remainder, doubled and added to
 //
-// Formats: see the ports; P = 2^t is a pixel in centre coordinates.
+// Formats: see the ports; in centre coordinates pixel centres lie on whole numbers.
 // Timing: the edges, then the channels, as many side by side as there are lanes. How long they take follows the triangle: a sum
 // takes a clock for a bit of its factors. prim_valid is high four clocks after the last operation.
 // Rules: all results are those of exact division, rounded once; a word keeps its low bits.
@@ -246,7 +246,7 @@ module edgewalk_setup (
     end
   end
 
-  // The vertices sorted by line, in centre coordinates: pixel centres lie on the multiples of P.
+  // The vertices sorted by line, in centre coordinates: pixel centres lie on whole numbers.
   wire y1_above_y0 = $signed(tri_y1) < $signed(tri_y0);
   wire y2_above_y0 = $signed(tri_y2) < $signed(tri_y0);
   wire y2_above_y1 = $signed(tri_y2) < $signed(tri_y1);
@@ -313,12 +313,12 @@ module edgewalk_setup (
 
   // Differences of the sorted vertices, from upper to lower ends of edges.
   wire [14:0] tall = p2_v - p0_v;
-  reg [14:0] dv02;  // 1/P line
-  reg [14:0] dv01;  // 1/P line
-  reg [14:0] dv12;  // 1/P line
-  reg [15:0] du02;  // 1/P column, signed
-  reg [15:0] du01;  // 1/P column, signed
-  reg [15:0] du12;  // 1/P column, signed
+  reg [14:0] dv02;  // from vertex 0 down to vertex 2, 1/16 px
+  reg [14:0] dv01;  // from vertex 0 down to vertex 1, 1/16 px
+  reg [14:0] dv12;  // from vertex 1 down to vertex 2, 1/16 px
+  reg [15:0] du02;  // from vertex 0 right to vertex 2, 1/16 px, signed
+  reg [15:0] du01;  // from vertex 0 right to vertex 1, 1/16 px, signed
+  reg [15:0] du12;  // from vertex 1 right to vertex 2, 1/16 px, signed
 
   always @(posedge clk) begin
     dv02 <= p2_v - p0_v;
@@ -336,7 +336,7 @@ module edgewalk_setup (
   wire [14:0] shifted_2 = dv01 >> area_digit;
   wire [16:0] area_part = (shifted[0] ? {du01[15], du01} : 17'd0)
                         - (shifted_2[0] ? {du02[15], du02} : 17'd0);
-  reg [30:0] area;       // 1/P^2 px^2, signed
+  reg [30:0] area;       // twice the area, 1/256 px^2, signed
   assign no_area = !(|area);
   wire [14:0] either = tall | 15'd2;
   wire [6:0] part = either[14:8];
@@ -423,15 +423,15 @@ module edgewalk_setup (
     if (at_next == TAKE12) scale_now <= scale_next;
   end
 
-  // Lines: from ceil(v/P) of the upper to before ceil(v/P) of the lower end, on the screen.
+  // Lines: those whose centres lie at or below the upper end and above the lower end, on the screen.
   wire [13:0] part_15 = p0_v[13:0];
-  wire [11:0] line0 = {2'd0, part_15[13:4]} + {11'd0, |p0_v[3:0]};  // ceil(v/P) of one that is not above the screen
+  wire [11:0] line0 = {2'd0, part_15[13:4]} + {11'd0, |p0_v[3:0]};  // the first line of centres at or below the vertex, if that is not above the screen
   reg [11:0] j0;        // line of the screen
   wire [13:0] part_16 = p1_v[13:0];
-  wire [11:0] line1 = {2'd0, part_16[13:4]} + {11'd0, |p1_v[3:0]};  // ceil(v/P) of one that is not above the screen
+  wire [11:0] line1 = {2'd0, part_16[13:4]} + {11'd0, |p1_v[3:0]};  // the first line of centres at or below the vertex, if that is not above the screen
   reg [11:0] j1;        // line of the screen
   wire [13:0] part_17 = p2_v[13:0];
-  wire [11:0] line2 = {2'd0, part_17[13:4]} + {11'd0, |p2_v[3:0]};  // ceil(v/P) of one that is not above the screen
+  wire [11:0] line2 = {2'd0, part_17[13:4]} + {11'd0, |p2_v[3:0]};  // the first line of centres at or below the vertex, if that is not above the screen
   reg [11:0] end_line;  // line of the screen
   wire [11:0] difference = j1 - j0;
   wire [11:0] difference_2 = end_line - j1;
@@ -445,12 +445,12 @@ module edgewalk_setup (
   end
 
   // Columns: is there a column centre of the screen from the leftmost up to before the rightmost vertex?
-  wire [10:0] column0 = p0_u[14:4] + {10'd0, |p0_u[3:0]};  // ceil(u/P)
-  wire [10:0] column1 = p1_u[14:4] + {10'd0, |p1_u[3:0]};  // ceil(u/P)
-  wire [10:0] column2 = p2_u[14:4] + {10'd0, |p2_u[3:0]};  // ceil(u/P)
+  wire [10:0] column0 = p0_u[14:4] + {10'd0, |p0_u[3:0]};  // the first column of centres at or right of the vertex
+  wire [10:0] column1 = p1_u[14:4] + {10'd0, |p1_u[3:0]};  // the first column of centres at or right of the vertex
+  wire [10:0] column2 = p2_u[14:4] + {10'd0, |p2_u[3:0]};  // the first column of centres at or right of the vertex
   wire none_between = (column0 == column1) && (column1 == column2);
-  wire before_screen = (p0_u[14] || !(|p0_u)) && (p1_u[14] || !(|p1_u)) && (p2_u[14] || !(|p2_u));  // ceil(u/P) is 0 or less
-  wire behind_screen = !($signed(p0_u) <= 15'sh27f0)  // ceil(u/P) is W or more
+  wire before_screen = (p0_u[14] || !(|p0_u)) && (p1_u[14] || !(|p1_u)) && (p2_u[14] || !(|p2_u));  // no vertex lies right of the first column of centres
+  wire behind_screen = !($signed(p0_u) <= 15'sh27f0)  // every vertex lies right of the last column of centres
                     && !($signed(p1_u) <= 15'sh27f0)
                     && !($signed(p2_u) <= 15'sh27f0);
   reg no_column;                                 // no column of the screen
@@ -458,9 +458,9 @@ module edgewalk_setup (
   wire upper = |prim_n1;
   wire [11:0] jm = upper ? j0 : j1;              // first line of the triangle
   wire [15:0] joined = {jm, 4'd0};
-  wire [13:0] h0 = joined[13:0] - p0_v[13:0];    // 1/P line
+  wire [13:0] h0 = joined[13:0] - p0_v[13:0];    // from vertex 0 down to the first line, 1/16 px
   wire [15:0] joined_2 = {j1, 4'd0};
-  wire [13:0] h1 = joined_2[13:0] - p1_v[13:0];  // 1/P line
+  wire [13:0] h1 = joined_2[13:0] - p1_v[13:0];  // from vertex 1 down to the first line of part 2, 1/16 px
 
   always @(posedge clk) begin
     no_column <= none_between || before_screen || behind_screen;
@@ -469,7 +469,7 @@ module edgewalk_setup (
   // Factors of the next sum, signed. Its first digit is the highest in which one of them differs from its sign.
   reg [16:0] q_times_f;      // q of the major edge, times the factor's digits so far
   reg [16:0] q_times_g;      // q of the major edge, times the factor's digits so far
-  reg [16:0] first_sheared;  // from vertex 0 to the first pixel, less q columns a line; 1/P column, signed
+  reg [16:0] first_sheared;  // from vertex 0 right to the first pixel, less q px a line; 1/16 px, signed
   reg [16:0] f;              // factor, signed
   reg [16:0] g;              // factor, signed
   wire [15:0] digits = (f[15:0] ^ f[16:1]) | (g[15:0] ^ g[16:1]);  // digits of the factors that differ from their signs

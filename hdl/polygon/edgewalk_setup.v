@@ -9,7 +9,7 @@
 //                                                   └─> N channels: g, d0, d1, start ───────┘
 //             a lane holds a pair, whole + rest / M: quotient and exact remainder, doubled and added to
 //
-// Formats: see the ports; P = 2^t is a pixel in centre coordinates.
+// Formats: see the ports; in centre coordinates pixel centres lie on whole numbers.
 // Timing: the edges, then the channels, as many side by side as there are lanes. How long they take follows the triangle: a sum
 // takes a clock for a bit of its factors. prim_valid is high four clocks after the last operation.
 // Rules: all results are those of exact division, rounded once; a word keeps its low bits.
@@ -248,7 +248,7 @@ module edgewalk_setup (
     end
   end
 
-  // The vertices sorted by line, in centre coordinates: pixel centres lie on the multiples of P.
+  // The vertices sorted by line, in centre coordinates: pixel centres lie on whole numbers.
   wire y1_above_y0 = $signed(tri_y1) < $signed(tri_y0);
   wire y2_above_y0 = $signed(tri_y2) < $signed(tri_y0);
   wire y2_above_y1 = $signed(tri_y2) < $signed(tri_y1);
@@ -315,12 +315,12 @@ module edgewalk_setup (
 
   // Differences of the sorted vertices, from upper to lower ends of edges.
   wire [21:0] tall = p2_v - p0_v;
-  reg [21:0] dv02;  // 1/P line
-  reg [21:0] dv01;  // 1/P line
-  reg [21:0] dv12;  // 1/P line
-  reg [22:0] du02;  // 1/P column, signed
-  reg [22:0] du01;  // 1/P column, signed
-  reg [22:0] du12;  // 1/P column, signed
+  reg [21:0] dv02;  // from vertex 0 down to vertex 2, 1/256 px
+  reg [21:0] dv01;  // from vertex 0 down to vertex 1, 1/256 px
+  reg [21:0] dv12;  // from vertex 1 down to vertex 2, 1/256 px
+  reg [22:0] du02;  // from vertex 0 right to vertex 2, 1/256 px, signed
+  reg [22:0] du01;  // from vertex 0 right to vertex 1, 1/256 px, signed
+  reg [22:0] du12;  // from vertex 1 right to vertex 2, 1/256 px, signed
 
   always @(posedge clk) begin
     dv02 <= p2_v - p0_v;
@@ -369,7 +369,7 @@ module edgewalk_setup (
   wire [21:0] shifted_2 = dv01 >> area_digit;
   wire [23:0] area_part = (shifted[0] ? {du01[22], du01} : 24'd0)
                         - (shifted_2[0] ? {du02[22], du02} : 24'd0);
-  reg [44:0] area;       // 1/P^2 px^2, signed
+  reg [44:0] area;       // twice the area, 1/65536 px^2, signed
   assign no_area = !(|area);
   wire [21:0] either = tall | 22'd2;
   wire [5:0] part = either[21:16];
@@ -463,15 +463,15 @@ module edgewalk_setup (
     end
   end
 
-  // Lines: from ceil(v/P) of the upper to before ceil(v/P) of the lower end, on the screen.
+  // Lines: those whose centres lie at or below the upper end and above the lower end, on the screen.
   wire [20:0] part_22 = p0_v[20:0];
-  wire [14:0] line0 = {2'd0, part_22[20:8]} + {14'd0, |p0_v[7:0]};  // ceil(v/P) of one that is not above the screen
+  wire [14:0] line0 = {2'd0, part_22[20:8]} + {14'd0, |p0_v[7:0]};  // the first line of centres at or below the vertex, if that is not above the screen
   reg [14:0] j0;        // line of the screen
   wire [20:0] part_23 = p1_v[20:0];
-  wire [14:0] line1 = {2'd0, part_23[20:8]} + {14'd0, |p1_v[7:0]};  // ceil(v/P) of one that is not above the screen
+  wire [14:0] line1 = {2'd0, part_23[20:8]} + {14'd0, |p1_v[7:0]};  // the first line of centres at or below the vertex, if that is not above the screen
   reg [14:0] j1;        // line of the screen
   wire [20:0] part_24 = p2_v[20:0];
-  wire [14:0] line2 = {2'd0, part_24[20:8]} + {14'd0, |p2_v[7:0]};  // ceil(v/P) of one that is not above the screen
+  wire [14:0] line2 = {2'd0, part_24[20:8]} + {14'd0, |p2_v[7:0]};  // the first line of centres at or below the vertex, if that is not above the screen
   reg [14:0] end_line;  // line of the screen
   wire [14:0] difference = j1 - j0;
   wire [14:0] difference_2 = end_line - j1;
@@ -491,12 +491,12 @@ module edgewalk_setup (
   end
 
   // Columns: is there a column centre of the screen from the leftmost up to before the rightmost vertex?
-  wire [13:0] column0 = p0_u[21:8] + {13'd0, |p0_u[7:0]};  // ceil(u/P)
-  wire [13:0] column1 = p1_u[21:8] + {13'd0, |p1_u[7:0]};  // ceil(u/P)
-  wire [13:0] column2 = p2_u[21:8] + {13'd0, |p2_u[7:0]};  // ceil(u/P)
+  wire [13:0] column0 = p0_u[21:8] + {13'd0, |p0_u[7:0]};  // the first column of centres at or right of the vertex
+  wire [13:0] column1 = p1_u[21:8] + {13'd0, |p1_u[7:0]};  // the first column of centres at or right of the vertex
+  wire [13:0] column2 = p2_u[21:8] + {13'd0, |p2_u[7:0]};  // the first column of centres at or right of the vertex
   wire none_between = (column0 == column1) && (column1 == column2);
-  wire before_screen = (p0_u[21] || !(|p0_u)) && (p1_u[21] || !(|p1_u)) && (p2_u[21] || !(|p2_u));  // ceil(u/P) is 0 or less
-  wire behind_screen = !($signed(p0_u) <= 22'sh27f00)  // ceil(u/P) is W or more
+  wire before_screen = (p0_u[21] || !(|p0_u)) && (p1_u[21] || !(|p1_u)) && (p2_u[21] || !(|p2_u));  // no vertex lies right of the first column of centres
+  wire behind_screen = !($signed(p0_u) <= 22'sh27f00)  // every vertex lies right of the last column of centres
                     && !($signed(p1_u) <= 22'sh27f00)
                     && !($signed(p2_u) <= 22'sh27f00);
   reg no_column;                           // no column of the screen
@@ -504,9 +504,9 @@ module edgewalk_setup (
   wire upper = |prim_n1;
   wire [14:0] jm = upper ? j0 : j1;        // first line of the triangle
   wire [22:0] joined_2 = {jm, 8'd0};
-  wire [21:0] h0 = joined_2[21:0] - p0_v;  // 1/P line
+  wire [21:0] h0 = joined_2[21:0] - p0_v;  // from vertex 0 down to the first line, 1/256 px
   wire [22:0] joined_3 = {j1, 8'd0};
-  wire [21:0] h1 = joined_3[21:0] - p1_v;  // 1/P line
+  wire [21:0] h1 = joined_3[21:0] - p1_v;  // from vertex 1 down to the first line of part 2, 1/256 px
 
   always @(posedge clk) begin
     no_column <= none_between || before_screen || behind_screen;

@@ -9,7 +9,7 @@
 //                                                   └─> N channels: g, d0, d1, start ───────┘
 //             a lane holds a pair, whole + rest / M: quotient and exact remainder, doubled and added to
 //
-// Formats: see the ports; P = 2^t is a pixel in centre coordinates.
+// Formats: see the ports; in centre coordinates pixel centres lie on whole numbers.
 // Timing: the edges, then the channels, as many side by side as there are lanes. How long they take follows the triangle: a sum
 // takes a clock for a bit of its factors. prim_valid is high four clocks after the last operation.
 // Rules: all results are those of exact division, rounded once; a word keeps its low bits.
@@ -246,7 +246,7 @@ module edgewalk_setup (
     end
   end
 
-  // The vertices sorted by line, in centre coordinates: pixel centres lie on the multiples of P.
+  // The vertices sorted by line, in centre coordinates: pixel centres lie on whole numbers.
   wire y1_above_y0 = $signed(tri_y1) < $signed(tri_y0);
   wire y2_above_y0 = $signed(tri_y2) < $signed(tri_y0);
   wire y2_above_y1 = $signed(tri_y2) < $signed(tri_y1);
@@ -313,12 +313,12 @@ module edgewalk_setup (
 
   // Differences of the sorted vertices, from upper to lower ends of edges.
   wire [11:0] tall = p2_v - p0_v;
-  reg [11:0] dv02;  // 1/P line
-  reg [11:0] dv01;  // 1/P line
-  reg [11:0] dv12;  // 1/P line
-  reg [12:0] du02;  // 1/P column, signed
-  reg [12:0] du01;  // 1/P column, signed
-  reg [12:0] du12;  // 1/P column, signed
+  reg [11:0] dv02;  // from vertex 0 down to vertex 2, 1/8 px
+  reg [11:0] dv01;  // from vertex 0 down to vertex 1, 1/8 px
+  reg [11:0] dv12;  // from vertex 1 down to vertex 2, 1/8 px
+  reg [12:0] du02;  // from vertex 0 right to vertex 2, 1/8 px, signed
+  reg [12:0] du01;  // from vertex 0 right to vertex 1, 1/8 px, signed
+  reg [12:0] du12;  // from vertex 1 right to vertex 2, 1/8 px, signed
 
   always @(posedge clk) begin
     dv02 <= p2_v - p0_v;
@@ -336,7 +336,7 @@ module edgewalk_setup (
   wire [11:0] shifted_2 = dv01 >> area_digit;
   wire [13:0] area_part = (shifted[0] ? {du01[12], du01} : 14'd0)
                         - (shifted_2[0] ? {du02[12], du02} : 14'd0);
-  reg [24:0] area;       // 1/P^2 px^2, signed
+  reg [24:0] area;       // twice the area, 1/64 px^2, signed
   assign no_area = !(|area);
   wire [11:0] either = tall | 12'd2;
   wire [3:0] part = either[11:8];
@@ -417,15 +417,15 @@ module edgewalk_setup (
     if (at_next == TAKE12) scale_now <= scale_next;
   end
 
-  // Lines: from ceil(v/P) of the upper to before ceil(v/P) of the lower end, on the screen.
+  // Lines: those whose centres lie at or below the upper end and above the lower end, on the screen.
   wire [10:0] part_12 = p0_v[10:0];
-  wire [9:0] line0 = {2'd0, part_12[10:3]} + {9'd0, |p0_v[2:0]};  // ceil(v/P) of one that is not above the screen
+  wire [9:0] line0 = {2'd0, part_12[10:3]} + {9'd0, |p0_v[2:0]};  // the first line of centres at or below the vertex, if that is not above the screen
   reg [9:0] j0;        // line of the screen
   wire [10:0] part_13 = p1_v[10:0];
-  wire [9:0] line1 = {2'd0, part_13[10:3]} + {9'd0, |p1_v[2:0]};  // ceil(v/P) of one that is not above the screen
+  wire [9:0] line1 = {2'd0, part_13[10:3]} + {9'd0, |p1_v[2:0]};  // the first line of centres at or below the vertex, if that is not above the screen
   reg [9:0] j1;        // line of the screen
   wire [10:0] part_14 = p2_v[10:0];
-  wire [9:0] line2 = {2'd0, part_14[10:3]} + {9'd0, |p2_v[2:0]};  // ceil(v/P) of one that is not above the screen
+  wire [9:0] line2 = {2'd0, part_14[10:3]} + {9'd0, |p2_v[2:0]};  // the first line of centres at or below the vertex, if that is not above the screen
   reg [9:0] end_line;  // line of the screen
   wire [9:0] difference = j1 - j0;
   wire [9:0] difference_2 = end_line - j1;
@@ -439,12 +439,12 @@ module edgewalk_setup (
   end
 
   // Columns: is there a column centre of the screen from the leftmost up to before the rightmost vertex?
-  wire [8:0] column0 = p0_u[11:3] + {8'd0, |p0_u[2:0]};  // ceil(u/P)
-  wire [8:0] column1 = p1_u[11:3] + {8'd0, |p1_u[2:0]};  // ceil(u/P)
-  wire [8:0] column2 = p2_u[11:3] + {8'd0, |p2_u[2:0]};  // ceil(u/P)
+  wire [8:0] column0 = p0_u[11:3] + {8'd0, |p0_u[2:0]};  // the first column of centres at or right of the vertex
+  wire [8:0] column1 = p1_u[11:3] + {8'd0, |p1_u[2:0]};  // the first column of centres at or right of the vertex
+  wire [8:0] column2 = p2_u[11:3] + {8'd0, |p2_u[2:0]};  // the first column of centres at or right of the vertex
   wire none_between = (column0 == column1) && (column1 == column2);
-  wire before_screen = (p0_u[11] || !(|p0_u)) && (p1_u[11] || !(|p1_u)) && (p2_u[11] || !(|p2_u));  // ceil(u/P) is 0 or less
-  wire behind_screen = !($signed(p0_u) <= 12'sd1912)  // ceil(u/P) is W or more
+  wire before_screen = (p0_u[11] || !(|p0_u)) && (p1_u[11] || !(|p1_u)) && (p2_u[11] || !(|p2_u));  // no vertex lies right of the first column of centres
+  wire behind_screen = !($signed(p0_u) <= 12'sd1912)  // every vertex lies right of the last column of centres
                     && !($signed(p1_u) <= 12'sd1912)
                     && !($signed(p2_u) <= 12'sd1912);
   reg no_column;                                 // no column of the screen
@@ -452,9 +452,9 @@ module edgewalk_setup (
   wire upper = |prim_n1;
   wire [9:0] jm = upper ? j0 : j1;               // first line of the triangle
   wire [12:0] joined = {jm, 3'd0};
-  wire [10:0] h0 = joined[10:0] - p0_v[10:0];    // 1/P line
+  wire [10:0] h0 = joined[10:0] - p0_v[10:0];    // from vertex 0 down to the first line, 1/8 px
   wire [12:0] joined_2 = {j1, 3'd0};
-  wire [10:0] h1 = joined_2[10:0] - p1_v[10:0];  // 1/P line
+  wire [10:0] h1 = joined_2[10:0] - p1_v[10:0];  // from vertex 1 down to the first line of part 2, 1/8 px
 
   always @(posedge clk) begin
     no_column <= none_between || before_screen || behind_screen;
@@ -463,7 +463,7 @@ module edgewalk_setup (
   // Factors of the next sum, signed. Its first digit is the highest in which one of them differs from its sign.
   reg [13:0] q_times_f;      // q of the major edge, times the factor's digits so far
   reg [13:0] q_times_g;      // q of the major edge, times the factor's digits so far
-  reg [13:0] first_sheared;  // from vertex 0 to the first pixel, less q columns a line; 1/P column, signed
+  reg [13:0] first_sheared;  // from vertex 0 right to the first pixel, less q px a line; 1/8 px, signed
   reg [13:0] f;              // factor, signed
   reg [13:0] g;              // factor, signed
   wire [12:0] digits = (f[12:0] ^ f[13:1]) | (g[12:0] ^ g[13:1]);  // digits of the factors that differ from their signs

@@ -9,7 +9,7 @@
 //                                                   └─> N channels: g, d0, d1, start ───────┘
 //             a lane holds a pair, whole + rest / M: quotient and exact remainder, doubled and added to
 //
-// Formats: see the ports; P = 2^t is a pixel in centre coordinates.
+// Formats: see the ports; in centre coordinates pixel centres lie on whole numbers.
 // Timing: the edges, then the channels, as many side by side as there are lanes. How long they take follows the triangle: a sum
 // takes a clock for a bit of its factors. prim_valid is high four clocks after the last operation.
 // Rules: all results are those of exact division, rounded once; a word keeps its low bits.
@@ -277,7 +277,7 @@ module edgewalk_setup (
     end
   end
 
-  // The vertices sorted by line, in centre coordinates: pixel centres lie on the multiples of P.
+  // The vertices sorted by line, in centre coordinates: pixel centres lie on whole numbers.
   wire y1_above_y0 = $signed(tri_y1) < $signed(tri_y0);
   wire y2_above_y0 = $signed(tri_y2) < $signed(tri_y0);
   wire y2_above_y1 = $signed(tri_y2) < $signed(tri_y1);
@@ -344,12 +344,12 @@ module edgewalk_setup (
 
   // Differences of the sorted vertices, from upper to lower ends of edges.
   wire [14:0] tall = p2_v - p0_v;
-  reg [14:0] dv02;  // 1/P line
-  reg [14:0] dv01;  // 1/P line
-  reg [14:0] dv12;  // 1/P line
-  reg [15:0] du02;  // 1/P column, signed
-  reg [15:0] du01;  // 1/P column, signed
-  reg [15:0] du12;  // 1/P column, signed
+  reg [14:0] dv02;  // from vertex 0 down to vertex 2, 1/2 px
+  reg [14:0] dv01;  // from vertex 0 down to vertex 1, 1/2 px
+  reg [14:0] dv12;  // from vertex 1 down to vertex 2, 1/2 px
+  reg [15:0] du02;  // from vertex 0 right to vertex 2, 1/2 px, signed
+  reg [15:0] du01;  // from vertex 0 right to vertex 1, 1/2 px, signed
+  reg [15:0] du12;  // from vertex 1 right to vertex 2, 1/2 px, signed
 
   always @(posedge clk) begin
     dv02 <= p2_v - p0_v;
@@ -367,7 +367,7 @@ module edgewalk_setup (
   wire [14:0] shifted_2 = dv01 >> area_digit;
   wire [16:0] area_part = (shifted[0] ? {du01[15], du01} : 17'd0)
                         - (shifted_2[0] ? {du02[15], du02} : 17'd0);
-  reg [30:0] area;       // 1/P^2 px^2, signed
+  reg [30:0] area;       // twice the area, 1/4 px^2, signed
   assign no_area = !(|area);
   wire [14:0] either = tall | 15'd2;
   wire [6:0] part = either[14:8];
@@ -481,11 +481,11 @@ module edgewalk_setup (
   wire upper = |prim_n1;
   wire [14:0] jm = upper ? j0 : j1;              // first line of the triangle
   wire [15:0] joined = {jm, 1'b0};
-  wire [13:0] h0 = joined[13:0] - p0_v[13:0];    // 1/P line
+  wire [13:0] h0 = joined[13:0] - p0_v[13:0];    // from vertex 0 down to the first line, 1/2 px
   wire [15:0] joined_2 = {j1, 1'b0};
-  wire [13:0] h1 = joined_2[13:0] - p1_v[13:0];  // 1/P line
-  wire [15:0] left_a = {j0, 1'b0} - {p0_v[14], p0_v};  // 1/P line
-  wire [15:0] left_b = {j1, 1'b0} - {p0_v[14], p0_v};  // 1/P line
+  wire [13:0] h1 = joined_2[13:0] - p1_v[13:0];  // from vertex 1 down to the first line of part 2, 1/2 px
+  wire [15:0] left_a = {j0, 1'b0} - {p0_v[14], p0_v};  // from vertex 0 down to the first line of part 1, 1/2 px
+  wire [15:0] left_b = {j1, 1'b0} - {p0_v[14], p0_v};  // from vertex 0 down to the first line of part 2, 1/2 px
   wire [14:0] choice_6 = some0 ? last0 - j0_next + 15'd1 : 15'd0;
   wire [14:0] choice_7 = some1 ? last1 - j1_next + 15'd1 : 15'd0;
 

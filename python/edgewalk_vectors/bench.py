@@ -89,7 +89,7 @@ class Held:
 class Sink:
     """Compares the tokens that come out, and the cycles in which they do where these count."""
 
-    def __init__(self, channel, directory, pattern, absent, by_cycle):
+    def __init__(self, channel, directory, pattern, absent, by_cycle, shy):
         self.name, self.channel, self.willing = channel["name"], channel, pattern
         self.fields = [field for field in channel["fields"] if field["port"] not in absent]
         self.wanted = directory.numbers(channel["tokens"])
@@ -98,14 +98,17 @@ class Sink:
         self.triangles = directory.steps(triangles) if triangles else None
         self.directory, self.came, self.faults, self.held = directory, 0, [], Held()
         self.always = f"{self.name}_ready" in absent
+        self.shy, self.waits, self.offered = shy and not self.always, False, False
 
     def drive(self, cycle, inputs):
-        self.ready = self.always or willing(self.willing, cycle)
+        self.ready = self.always or willing(self.willing, cycle) and (not self.shy or self.waits)
         inputs[f"{self.name}_ready"] = int(self.ready)
 
     def sample(self, cycle, outputs, moved):
         valid = outputs[f"{self.name}_valid"]
         token = {field["port"]: outputs[field["port"]] for field in self.fields}
+        # An unknown valid is taken for one.
+        self.waits, self.offered = valid != 0 and not self.ready, self.offered or valid != 0
         if self.held.broken(valid, token, self.ready):
             self.faults.append(f"{self.name}: cycle {cycle}: the token changed, or valid fell, before it was taken")
         if valid == 0 or not self.ready:
@@ -143,10 +146,10 @@ class Bench:
     `drive()` returns the inputs of a cycle, `sample(outputs)` takes its outputs and says whether the run goes on, and
     `finish()` raises `Fault` unless everything expected came, as expected, and nothing else. Names are the unit's;
     `outputs` are those that are sampled. `absent` are ports that the design has not got, and `compare` is "cycle" or
-    "order".
+    "order". A `shy` bench takes only tokens that it has seen waiting, and compares nothing.
     """
 
-    def __init__(self, directory, absent=(), compare=None):
+    def __init__(self, directory, absent=(), compare=None, shy=False):
         manifest = directory.manifest
         compare = compare or (manifest.get("dut") or {"compare": "cycle"})["compare"]
         if compare not in ("cycle", "order"):
@@ -160,7 +163,7 @@ class Bench:
         for channel in manifest["channels"]:
             name = channel["name"]
             if channel["direction"] == "out":
-                self.sinks.append(Sink(channel, directory, pattern[name], absent, by_cycle))
+                self.sinks.append(Sink(channel, directory, pattern[name], absent, by_cycle, shy))
             elif name in memories:
                 self.memories.append(Memory(channel, memories[name], directory, pattern[name]))
             else:
@@ -174,7 +177,7 @@ class Bench:
         self.during = status["during"]
         changes = zip(directory.steps(status["moved"]), directory.numbers(status["tokens"]))
         self.changes = list(changes) if by_cycle else []
-        self.seen, self.status_faults, self.shown = 0, [], None
+        self.seen, self.status_faults, self.shown, self.stuck = 0, [], None, []
         self.cycle, self.quiet = 0, 0
         self.expected = len(self.changes) + sum(len(sink.wanted) for sink in self.sinks)
 
@@ -232,6 +235,15 @@ class Bench:
         self.seen += wanted is not None
         return True
 
+    def all_offered(self):
+        """Whether each channel out has offered a token, or has none."""
+        return all(sink.offered or not sink.wanted for sink in self.sinks)
+
+    def silent(self):
+        """Channels out that never offered a token, though nothing happened any more."""
+        quiet = self.quiet > self.limits["idle"]
+        return [sink.name for sink in self.sinks if quiet and sink.wanted and sink.shy and not sink.offered]
+
     @property
     def checked(self):
         """Tokens and changes of the status that were compared."""
@@ -241,6 +253,12 @@ class Bench:
         """Raises `Fault` unless all is right; returns what was checked."""
         told = list(self.status_faults[:SHOWN])
         for sink in self.sinks:
+            # One that offers nothing here either has another fault.
+            if sink.name in self.stuck and sink.came:
+                told.append(
+                    f"{sink.name}: {sink.name}_valid waits for {sink.name}_ready, which it must not: no token was offered "
+                    f"in the first run, in which {sink.name}_ready is 0 until {sink.name}_valid is 1"
+                )
             told += sink.faults[:SHOWN]
             missing = len(sink.wanted) - sink.came
             if missing:

@@ -206,3 +206,41 @@ def test_changed_directory_is_refused(vectors, tmp_path, what):
         file.write_text(text.replace(old, new, 1))
     with pytest.raises(VectorsError, match="manifest.json|is not the file that|No such file|permitted: edgewalk"):
         Directory(tmp_path / "v")
+
+
+def shy_run(directory, design, spoil=None):
+    """The first run of `replay`: whether no ready came before its valid, and the channels that stayed silent."""
+    bench, seen, early, cycle = Bench(Directory(directory), shy=True), set(), [], 0
+    going = True
+    while going and not bench.all_offered():
+        inputs = bench.drive()
+        outputs = design.outputs(cycle)
+        if spoil:
+            spoil(cycle, outputs)
+        early += [sink.name for sink in bench.sinks if inputs[f"{sink.name}_ready"] and sink.name not in seen]
+        going = bench.sample(outputs)
+        seen |= {sink.name for sink in bench.sinks if outputs[f"{sink.name}_valid"]}
+        design.clock(cycle)
+        cycle += 1
+    return early, bench.silent()
+
+
+@pytest.mark.parametrize("unit", UNITS)
+def test_first_run_takes_only_what_waits(vectors, player, unit):
+    of_unit, folder = vectors(unit)
+    assert shy_run(folder, player(of_unit)) == ([], [])
+
+
+def test_valid_that_waits_for_ready_fails(vectors, player):
+    of_unit, folder = vectors("pixel")
+    early, silent = shy_run(folder, player(of_unit), lambda cycle, o: o.update(frag_valid=0))
+    assert (early, silent) == ([], ["frag"])
+    bench, design, going, cycle = Bench(Directory(folder)), player(of_unit), True, 0
+    bench.stuck = silent
+    while going:
+        bench.drive()
+        going = bench.sample(design.outputs(cycle))
+        design.clock(cycle)
+        cycle += 1
+    with pytest.raises(Fault, match="frag: frag_valid waits for frag_ready, which it must not"):
+        bench.finish()

@@ -1,5 +1,6 @@
 //! Synthesis of one machine after another, for sweeps and comparisons.
 
+use crate::number::whole;
 use anyhow::{Context, Result, anyhow};
 use edgewalk_explore::sweep::definition::Synthesis;
 use edgewalk_explore::sweep::row::{Cost, Status};
@@ -23,7 +24,7 @@ pub struct SynthArgs {
     #[arg(long, value_name = "UNIT", default_value = "machine", requires = "synth")]
     synth_unit: String,
     /// With --synth: place and route with the seeds 1 to N
-    #[arg(long, default_value_t = 3, value_name = "N", requires = "synth", value_parser = clap::value_parser!(u32).range(1..=1000))]
+    #[arg(long, default_value_t = 3, value_name = "N", requires = "synth", value_parser = whole::<u32>(1..=1000))]
     synth_seeds: u32,
     #[command(flatten)]
     tools: ToolArgs,
@@ -33,7 +34,7 @@ pub struct SynthArgs {
 #[derive(clap::Args, Clone, Debug)]
 pub struct ToolArgs {
     /// Time limit of each run of a tool, seconds
-    #[arg(long, default_value_t = 3600, value_name = "SECONDS", value_parser = clap::value_parser!(u64).range(1..))]
+    #[arg(long, default_value_t = 3600, value_name = "SECONDS", value_parser = whole::<u64>(1..))]
     limit: u64,
     /// Folder of the cache; that of `edgewalk synth` if left out
     #[arg(long, value_name = "DIR")]

@@ -1,5 +1,6 @@
 //! Fast Phong shading on the command line: its options, its picture, and how far it is from Phong shading.
 
+use crate::number::whole;
 use anyhow::{Result, anyhow};
 use edgewalk_golden::ShadingError;
 use edgewalk_golden::fast_phong::{Directional, FastShaded, Fit, PowerTable, Settings, shade};
@@ -16,7 +17,7 @@ pub struct FastPhongArgs {
     #[arg(long, value_enum)]
     fit: Option<FitName>,
     /// Entries of the table of powers of fast-phong, 2 to 1048576 [default: 4096]
-    #[arg(long, value_name = "ENTRIES", value_parser = clap::value_parser!(u32).range(2..=1 << 20))]
+    #[arg(long, value_name = "ENTRIES", value_parser = whole::<u32>(2..=1 << 20))]
     table: Option<u32>,
 }
 

@@ -24,6 +24,7 @@ mod jobs;
 mod junit;
 mod lamps;
 mod machine_args;
+mod number;
 mod own;
 mod pictures;
 mod progress;

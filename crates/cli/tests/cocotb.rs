@@ -189,6 +189,50 @@ fn designs_of_another_hand_and_faults_under_cocotb() {
     }
 }
 
+/// The first run, in which no ready comes before its valid, and the reset behind it: a valid that waits for its ready
+/// fails, and a design whose registers have their first values from `initial` alone.
+#[test]
+#[ignore = "needs cocotb"]
+fn valids_that_wait_and_missing_resets_fail() {
+    let waits: &[(&str, &str)] = &[
+        ("m_valid", "m_hold"),
+        ("output reg           m_hold,", "output wire          m_valid,"),
+        (
+            "  reg          busy,",
+            "  reg          m_hold;\n  assign m_valid = m_hold && m_ready;\n  reg          busy,",
+        ),
+    ];
+    let keeps: &[(&str, &str)] = &[
+        ("if (!aresetn) begin", "if (1'b0) begin"),
+        (" or negedge aresetn", ""),
+        ("  assign s_ready", "  initial {busy, stage_valid, m_valid} = 0;\n  assign s_ready"),
+    ];
+    let folder = tempfile::tempdir().expect("a folder");
+    own(folder.path());
+    // The order alone counts, as pixel.toml says: a valid that waits changes cycles alone.
+    vectors(folder.path(), &["--dut", "pixel.toml", "--suite", "hazards"]);
+    for (edits, said) in [
+        (
+            waits,
+            "frag: frag_valid waits for frag_ready, which it must not: no token was offered in the first run",
+        ),
+        (keeps, "frag_z: expected "),
+    ] {
+        own(folder.path());
+        let file = folder.path().join("my_pixel.v");
+        let mut design = fs::read_to_string(&file).expect("a file");
+        for (from, to) in edits {
+            assert!(design.contains(from), "{from}");
+            design = design.replace(from, to);
+        }
+        fs::write(&file, design).expect("written");
+        for simulator in simulators() {
+            let (code, text) = replayed(folder.path(), "v/hazards_pixel", &simulator);
+            assert!(code == Some(1) && text.contains(said), "{simulator}: {text}");
+        }
+    }
+}
+
 /// What the page shows is what the campaign runs.
 #[test]
 fn page_shows_the_test_of_two_lines() {

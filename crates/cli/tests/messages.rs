@@ -102,7 +102,7 @@ const REFUSED: &[(&[&str], &str)] = &[
     (&["size", "t.tri", "--error", "-1"], "t.tri: --error -1: permitted: above 0.5, "),
     (
         &["judge", "t.tri", "x", "--depth-lsb", "-1"],
-        "invalid value '-1' for '--depth-lsb <LSB>': -1; permitted: 0 or more, LSB",
+        "invalid value '-1' for '--depth-lsb <LSB>': permitted: 0 or more, LSB",
     ),
     (&["bench", "t.tri", "--repeat", "-1"], "invalid value '-1' for '--repeat <N>': -1 is not in 1..=1000"),
     (&["sweep", "run", "--out", "f", "--chunk", "-1"], "invalid value '-1' for '--chunk <I>': -1 is not in "),

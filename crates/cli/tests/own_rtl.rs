@@ -274,6 +274,17 @@ fn cases_are_replayed_alone() {
     assert!(code == Some(2) && list.len() > 10 && different.len() == list.len(), "{text}");
 }
 
+/// A run in which no suite has anything for the design's unit, or in which the simulator has no suite, does not pass.
+#[test]
+fn a_run_without_a_suite_is_refused() {
+    let folder = folder();
+    for cases in [["icarus", FUNCTIONS], ["verilator", "torus-knot"]] {
+        let arguments = ["verify", "--dut", "pixel.toml", "--simulator", cases[0], "--only", cases[1]];
+        let (code, text) = told(&edgewalk(folder.path(), &arguments));
+        assert!(code == Some(2) && text.contains("error: no suite was run, as none of those"), "{text}");
+    }
+}
+
 /// The example of the documents is the file that passes, and every key of a description stands there.
 #[test]
 fn the_page_shows_the_description_and_all_keys() {

@@ -20,6 +20,10 @@ const BANNED: &[&str] = &[
     "moves on",
     "nothing in flight",
     "what lies",
+    // P is a letter of the specification; a unit says its number.
+    "1/p",
+    "u/p",
+    "v/p",
 ];
 
 /// A machine of each kind of unit, beside the presets.

@@ -188,7 +188,7 @@ fn witnesses_of_a_segmented_adder_are_drawn() {
 #[test]
 fn what_cannot_be_sized_is_said() {
     let folder = tempfile::tempdir().unwrap();
-    for (error, said) in [("0.5", "above 0.5"), ("nan", "--error NaN"), ("1e9", "1024 LSB")] {
+    for (error, said) in [("0.5", "above 0.5"), ("nan", "permitted: numbers, LSB"), ("1e9", "1024 LSB")] {
         let (code, told) = run(folder.path(), &["size", "sphere", "--error", error]);
         assert!(code == Some(2) && told.contains(said), "{error}: {told}");
     }

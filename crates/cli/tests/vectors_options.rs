@@ -1,7 +1,7 @@
 //! `edgewalk vectors`: `--seed`, `--stalls` and `--triangles` do what their help says.
 #![allow(clippy::unwrap_used)] // a test that unwraps nothing reports it
 
-use crate::support::run;
+use crate::support::{edgewalk, run};
 use serde_json::Value;
 use std::path::Path;
 
@@ -21,6 +21,27 @@ fn text(folder: &Path, file: &str) -> String {
 
 fn manifest(folder: &Path, directory: &str) -> Value {
     serde_json::from_str(&text(folder, &format!("{directory}/manifest.json"))).unwrap()
+}
+
+/// The help names every suite and every unit that the program knows: those that it permits instead of an unknown one.
+#[test]
+fn help_names_every_suite_and_unit() {
+    let folder = tempfile::tempdir().unwrap();
+    let help = edgewalk(folder.path(), &["vectors", "--help"]).output().unwrap();
+    let help = String::from_utf8(help.stdout).unwrap();
+    let said: Vec<&str> = help.split(|c: char| !c.is_ascii_alphanumeric() && c != '_').collect();
+    for (option, least) in [("--suite", 24), ("--unit", 16)] {
+        let (code, error) = run(folder.path(), &["vectors", option, "nosuch", "--out", "out"]);
+        let list = error.split_once("permitted: ").unwrap().1;
+        let list = list.split([';', '\n']).next().unwrap();
+        let names: Vec<&str> = list.split(", ").collect();
+        let missing: Vec<&&str> = names.iter().filter(|name| !said.contains(name)).collect();
+        assert!(
+            code == Some(2) && names.len() >= least && missing.is_empty(),
+            "{missing:?} of {error}: {help}"
+        );
+        println!("{option}: {} / {} names", names.len(), names.len());
+    }
 }
 
 #[test]

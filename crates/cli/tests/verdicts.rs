@@ -51,6 +51,22 @@ fn a_wide_triangle_wraps_with_four_fraction_bits_and_not_with_fourteen() {
     assert!(!text.contains("no bound"), "{text}");
 }
 
+/// Slope edges err: the report says by how much beside the mismatches, and the verdict counts these.
+#[test]
+fn mismatches_of_slope_edges_are_explained() {
+    let lines = |settings: &[&str]| {
+        let (code, report, text) =
+            render("size 64 48\nT 3 2 0 1 0 0 0  60 9 0 0 1 0 0  11 47 1 0 0 1 0\n", settings);
+        let mismatches = report["comparison"]["coverage_mismatches"].as_u64().unwrap();
+        let told = text
+            .contains("slope edges of 2 fraction bits err by at most 1/8 px a line: a centre within that");
+        (code, mismatches > 0, told)
+    };
+    assert_eq!(lines(&["edge.kind=slope", "edge.fraction_bits=2"]), (Some(1), true, true));
+    assert_eq!(lines(&["edge.kind=slope", "edge.fraction_bits=30"]), (Some(0), false, false));
+    assert_eq!(lines(&["edge.fraction_bits=2"]), (Some(0), false, false));
+}
+
 #[test]
 fn an_error_over_one_lsb_without_a_bound_is_a_mismatch() {
     let folder = tempfile::tempdir().unwrap();

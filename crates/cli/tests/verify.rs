@@ -102,9 +102,30 @@ fn what_is_not_covered_is_said() {
 
 #[test]
 fn nothing_to_draw_is_nothing_checked() {
-    let (code, text) = told(&verify("", &["--no-simulators"], None));
-    assert_eq!(code, Some(2), "{text}");
-    assert!(text.contains("checked 0 / "), "{text}");
+    let off = "T 0.1 0.1 0 1 0 0 0  0.2 0.1 0 0 1 0 0  0.1 0.2 1 0 0 1 0\n";
+    // The tools that are not ours answer as a bench does to which no token came.
+    let tools = fake_simulators(&format!(
+        "case $suite.$unit in\ninput.machine) printf 'checked 0 / %d\\nFAIL: nothing was compared\\n' $n;;\n\
+         *) {HONEST};;\nesac"
+    ));
+    let path = format!("{}:{}", tools.path().display(), std::env::var("PATH").unwrap_or_default());
+    for (triangles, taken) in [("", 0), (off, 1)] {
+        for arguments in [&["--no-simulators"][..], &[]] {
+            let (code, text) = told(&verify(triangles, arguments, Some(&path)));
+            let why = format!(
+                "({taken}) covers a pixel of the 24x20 screen; permitted: at least 1; verify an input"
+            );
+            assert_eq!(code, Some(2), "{text}");
+            assert!(
+                text.contains("checked 0 / ") && text.contains("suite input: 0 tokens of machine"),
+                "{text}"
+            );
+            assert!(text.contains(&why), "{text}");
+        }
+    }
+    let (code, text) = told(&verify(TRIANGLE, &["--no-simulators", "--only", "zero_area_horizontal"], None));
+    let why = "suite corners: 0 tokens of machine, setup, edge, span, pixel, depth were compared: the cases of --only";
+    assert!(code == Some(2) && text.contains(why), "{text}");
 }
 
 #[test]

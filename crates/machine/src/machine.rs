@@ -198,7 +198,7 @@ pub(crate) const FRONT: &[Key] = &[
     word!(
         "edge.kind",
         EdgeKind { "exact" => Exact, "slope" => Slope },
-        "edge walk: exact (quotient and remainder) or slope (fixed point)",
+        "edge walk: exact (quotient and remainder) or slope (fixed point; may decide a centre beside an edge otherwise)",
         edge_kind
     ),
     number!(

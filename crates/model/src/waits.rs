@@ -56,7 +56,7 @@ pub enum Waits {
     Fixed(Fixed),
     /// At random, by seed.
     Random(Stalls),
-    /// As its pages do.
+    /// As its pages do; [`Dram`] is made by [`Waits::from_str`] alone.
     Dram(Dram),
 }
 

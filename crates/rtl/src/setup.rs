@@ -46,7 +46,7 @@ const DOC: &str = "SETUP turns three vertices into edges and increments.
                                                   └─> N channels: g, d0, d1, start ───────┘
             a lane holds a pair, whole + rest / M: quotient and exact remainder, doubled and added to
 
-Formats: see the ports; P = 2^t is a pixel in centre coordinates.
+Formats: see the ports; in centre coordinates pixel centres lie on whole numbers.
 Timing: the edges, then the channels, as many side by side as there are lanes. How long they take follows the triangle: a sum
 takes a clock for a bit of its factors. prim_valid is high four clocks after the last operation.
 Rules: all results are those of exact division, rounded once; a word keeps its low bits.";

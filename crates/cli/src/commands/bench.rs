@@ -3,6 +3,7 @@
 use crate::document::line;
 use crate::input::{Source, to_port};
 use crate::machine_args::MachineArgs;
+use crate::number::whole;
 use crate::verdict::Verdict;
 use crate::{Talk, progress};
 use anyhow::Result;
@@ -32,7 +33,7 @@ pub struct Args {
     #[arg(long, value_name = "KIND", default_value = "none")]
     stalls: Waits,
     /// Frames timed for each engine, after one untimed frame
-    #[arg(long, default_value_t = 5, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1000))]
+    #[arg(long, default_value_t = 5, value_name = "N", value_parser = whole::<u32>(1..=1000))]
     repeat: u32,
 }
 

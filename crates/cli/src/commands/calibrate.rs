@@ -11,6 +11,7 @@ use crate::Talk;
 use crate::cost::cache_folder;
 use crate::document::document;
 use crate::machine_args::MachineArgs;
+use crate::number::whole;
 use crate::progress;
 use crate::verdict::Verdict;
 use anyhow::{Context, Result, anyhow};
@@ -51,16 +52,16 @@ pub struct Args {
     #[arg(long, value_name = "FILE")]
     fit: Option<PathBuf>,
     /// Synthesise the first N machines of the list; the fit takes all rows of the table
-    #[arg(long, value_name = "N", default_value_t = 0)]
+    #[arg(long, value_name = "N", default_value_t = 0, value_parser = whole::<usize>(..))]
     count: usize,
     /// Synthesise this part of each machine, and hold all of them out; the machines themselves if left out
     #[arg(long, value_name = "UNIT")]
     unit: Option<String>,
     /// Place and route designs of at most so many packed cells: nearly full devices take minutes
-    #[arg(long, value_name = "CELLS", default_value_t = 5000)]
+    #[arg(long, value_name = "CELLS", default_value_t = 5000, value_parser = whole::<u64>(..))]
     place_below: u64,
     /// Time limit of each run of a tool, seconds
-    #[arg(long, default_value_t = 3600, value_name = "SECONDS", value_parser = clap::value_parser!(u64).range(1..))]
+    #[arg(long, default_value_t = 3600, value_name = "SECONDS", value_parser = whole::<u64>(1..))]
     limit: u64,
     /// Folder of the cache; that of `edgewalk synth` if left out
     #[arg(long, value_name = "DIR")]

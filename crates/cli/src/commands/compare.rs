@@ -6,6 +6,7 @@ mod page;
 use crate::Talk;
 use crate::cost::{SynthArgs, Synthesiser};
 use crate::machine_args::{MachineArgs, no_needs};
+use crate::number::whole;
 use crate::progress::reading;
 use crate::verdict::Verdict;
 use anyhow::{Context, Result, anyhow};
@@ -80,7 +81,7 @@ pub struct Args {
     stalls: Waits,
     /// In the table: energy of the first N triangles, polygons and lines of each input in standard cells, by unit, with the
     /// tools of `edgewalk energy`; not with --stalls
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    #[arg(long, value_name = "N", value_parser = whole::<u32>(1..))]
     energy: Option<u32>,
     /// With --energy: a library of cells in the Liberty format, instead of OSU's for 0.18 um
     #[arg(long, value_name = "FILE.lib", requires = "energy")]

@@ -4,6 +4,7 @@ use crate::Talk;
 use crate::document::document;
 use crate::input::Source;
 use crate::machine_args::MachineArgs;
+use crate::number::whole;
 use crate::verdict::Verdict;
 use anyhow::{Result, anyhow};
 use edgewalk_explain::{Input, explain};
@@ -22,13 +23,13 @@ pub struct Args {
     #[command(flatten)]
     source: Source,
     /// Draws the first N triangles, polygons and lines of the input; all of them if left out
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
+    #[arg(long, value_name = "N", value_parser = whole::<u64>(1..))]
     triangles: Option<u64>,
     /// Column, from the left
-    #[arg(value_name = "X")]
+    #[arg(value_name = "X", value_parser = whole::<u32>(..))]
     x: u32,
     /// Line, from the top
-    #[arg(value_name = "Y")]
+    #[arg(value_name = "Y", value_parser = whole::<u32>(..))]
     y: u32,
 }
 

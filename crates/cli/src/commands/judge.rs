@@ -3,6 +3,7 @@
 use crate::document::document;
 use crate::input::{Source, to_port};
 use crate::machine_args::MachineArgs;
+use crate::number::{real, whole};
 use crate::verdict::Verdict;
 use crate::{Talk, junit};
 use anyhow::{Result, ensure};
@@ -50,16 +51,16 @@ pub struct Args {
     #[arg(long, value_enum)]
     rule: Option<RuleName>,
     /// Bits of a depth of the picture [default: formats.z_bits]
-    #[arg(long, value_name = "BITS", value_parser = clap::value_parser!(u32).range(1..=48))]
+    #[arg(long, value_name = "BITS", value_parser = whole::<u32>(1..=48))]
     depth_bits: Option<u32>,
     /// Bits of a colour of the picture [default: formats.color_bits]
-    #[arg(long, value_name = "BITS", value_parser = clap::value_parser!(u32).range(1..=48))]
+    #[arg(long, value_name = "BITS", value_parser = whole::<u32>(1..=48))]
     color_bits: Option<u32>,
     /// Largest permitted error of a depth, LSB [default: the proved bound of the machine; with --depth-bits 1]
-    #[arg(long, value_name = "LSB", value_parser = lsb)]
+    #[arg(long, value_name = "LSB", value_parser = real(0.0..=f64::INFINITY, "LSB"))]
     depth_lsb: Option<f64>,
     /// Largest permitted error of a colour, LSB [default: the proved bound of the machine; with --color-bits 1]
-    #[arg(long, value_name = "LSB", value_parser = lsb)]
+    #[arg(long, value_name = "LSB", value_parser = real(0.0..=f64::INFINITY, "LSB"))]
     color_lsb: Option<f64>,
     /// Output directory for judge.json, judge.xml (JUnit) and differences.png
     #[arg(long, value_name = "DIR")]
@@ -195,17 +196,6 @@ fn color(cause: u8) -> [u8; 3] {
         Some(Cause::Color) => [0, 255, 255],
         Some(Cause::Twice | Cause::LayerMissing) => [0, 200, 0],
         Some(Cause::Light) => [255, 255, 255],
-    }
-}
-
-/// A number of LSB on the command line.
-fn lsb(text: &str) -> Result<f64, String> {
-    let number: f64 =
-        text.parse().map_err(|_| format!("`{text}` is no number; permitted: 0 or more, LSB"))?;
-    if number.is_finite() && number >= 0.0 {
-        Ok(number)
-    } else {
-        Err(format!("{text}; permitted: 0 or more, LSB"))
     }
 }
 

@@ -10,6 +10,7 @@ mod verdicts;
 
 use crate::document::document;
 use crate::machine_args::MachineArgs;
+use crate::number::whole;
 use crate::suites::check_unit;
 use crate::verdict::Verdict;
 use crate::{Talk, jobs, own, progress};
@@ -57,20 +58,20 @@ pub struct Args {
     #[arg(long = "in", value_name = "DIR")]
     folder: Option<PathBuf>,
     /// Faults to try, drawn by the seed; all of them if left out
-    #[arg(long, value_parser = clap::value_parser!(u64).range(1..))]
+    #[arg(long, value_parser = whole::<u64>(1..))]
     sample: Option<u64>,
     /// Seed of the sample
-    #[arg(long, default_value_t = 1)]
+    #[arg(long, default_value_t = 1, value_parser = whole::<u64>(..))]
     seed: u64,
     /// Seconds that the command may take for a design
-    #[arg(long, default_value_t = 60, value_parser = clap::value_parser!(u64).range(1..))]
+    #[arg(long, default_value_t = 60, value_parser = whole::<u64>(1..))]
     limit: u64,
     /// Ask the prover (Yosys) about faults that neither your bench nor a suite shows; those that it proves to change
     /// nothing are not counted
     #[arg(long)]
     prove: bool,
     /// End with exit code 1 if less than this share of the faults is found, percent
-    #[arg(long, value_name = "PERCENT", value_parser = clap::value_parser!(u8).range(0..=100))]
+    #[arg(long, value_name = "PERCENT", value_parser = whole::<u8>(0..=100))]
     least: Option<u8>,
     /// Folder of verdicts.jsonl
     #[arg(long, value_name = "DIR", default_value = "out/mutants")]

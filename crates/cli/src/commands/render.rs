@@ -10,6 +10,7 @@ use crate::engine::{Engine, from_golden, golden_fill};
 use crate::fast_phong::{FastPhongArgs, FastPhongReport};
 use crate::input::{Shading, Source};
 use crate::machine_args::MachineArgs;
+use crate::number::real;
 use crate::pictures::{FILES, pictures};
 use crate::progress::spinner;
 use crate::shading_report::ShadingReport;
@@ -67,10 +68,10 @@ pub struct Args {
     #[arg(long, value_name = "KIND", default_value = "none")]
     stalls: Waits,
     /// Clock at which the report tells the traffic in MB/s; without it, in bytes a cycle
-    #[arg(long, value_name = "MHZ", value_parser = mhz)]
+    #[arg(long, value_name = "MHZ", value_parser = real(0.001..=100_000.0, "MHz"))]
     clock: Option<f64>,
     /// Pictures a second of a display that reads the frame; the report then tells scan-out and clearing too
-    #[arg(long, value_name = "HZ", requires = "clock", value_parser = hertz)]
+    #[arg(long, value_name = "HZ", requires = "clock", value_parser = real(0.001..=100_000.0, "Hz"))]
     display: Option<f64>,
     #[command(flatten)]
     look: Look,
@@ -137,18 +138,6 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
     out.publish(&FILES)?;
     talk.say(|| document("report", &report), || report.text())?;
     verdict.or_nothing(&args.source.input, frame.drawn() as u64, (machine.width, machine.height))
-}
-
-/// Pictures a second.
-fn hertz(text: &str) -> Result<f64, String> {
-    let rate = text.parse().ok().filter(|hz| (0.001..=100_000.0).contains(hz));
-    rate.ok_or_else(|| "permitted: 0.001 to 100000 Hz".to_owned())
-}
-
-/// A clock.
-fn mhz(text: &str) -> Result<f64, String> {
-    let clock = text.parse().ok().filter(|mhz| (0.001..=100_000.0).contains(mhz));
-    clock.ok_or_else(|| "permitted: 0.001 to 100000 MHz".to_owned())
 }
 
 /// What becomes of lines behind surfaces.

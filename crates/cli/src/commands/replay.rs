@@ -6,6 +6,7 @@ use crate::Talk;
 use crate::document::document;
 use crate::input::{Source, to_port};
 use crate::machine_args::MachineArgs;
+use crate::number::whole;
 use crate::shell::quoted;
 use crate::verdict::Verdict;
 use anyhow::{Context, Result, anyhow};
@@ -35,16 +36,16 @@ pub struct Args {
     #[command(flatten)]
     source: Source,
     /// Draw the first N triangles, polygons and lines of the input
-    #[arg(long, value_name = "N", default_value_t = 20, value_parser = clap::value_parser!(u64).range(1..))]
+    #[arg(long, value_name = "N", default_value_t = 20, value_parser = whole::<u64>(1..))]
     triangles: u64,
     /// First cycle shown
-    #[arg(long, value_name = "C", default_value_t = 0)]
+    #[arg(long, value_name = "C", default_value_t = 0, value_parser = whole::<u64>(..))]
     from: u64,
     /// Last cycle shown; if left out, the cycle in which the machine comes to rest
-    #[arg(long, value_name = "C")]
+    #[arg(long, value_name = "C", value_parser = whole::<u64>(..))]
     to: Option<u64>,
     /// Number of cycles shown
-    #[arg(long, conflicts_with = "to", value_parser = clap::value_parser!(u64).range(1..))]
+    #[arg(long, conflicts_with = "to", value_parser = whole::<u64>(1..))]
     cycles: Option<u64>,
     /// Stalls of the memory: none, fixed, random, dram, with parameters as fixed:rd=2; or mixed, late
     #[arg(long, value_name = "KIND", default_value = "none", value_parser = kind)]

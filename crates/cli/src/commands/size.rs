@@ -4,6 +4,7 @@ use crate::Talk;
 use crate::document::document;
 use crate::input::{Source, to_port};
 use crate::machine_args::MachineArgs;
+use crate::number::real;
 use crate::verdict::Verdict;
 use anyhow::{Context, Result};
 use edgewalk_explore::size::{Answer, Breaker, ChannelSize, Size, size};
@@ -32,7 +33,7 @@ pub struct Args {
     #[command(flatten)]
     source: Source,
     /// Largest error of an output, LSB; above 0.5, the share of its rounding
-    #[arg(long, default_value_t = 1.0, value_name = "LSB")]
+    #[arg(long, default_value_t = 1.0, value_name = "LSB", value_parser = real(f64::NEG_INFINITY..=f64::INFINITY, "LSB"))]
     error: f64,
     /// Folder of the witness triangles
     #[arg(long, value_name = "DIR", default_value = "out/size")]

@@ -13,6 +13,7 @@ use crate::commands::estimate::device;
 use crate::cost::{SynthArgs, Synthesiser, ToolArgs};
 use crate::estimator::Estimator;
 use crate::machine_args::MachineArgs;
+use crate::number::{real, whole};
 use crate::verdict::Verdict;
 use crate::{Talk, progress};
 use anyhow::{Context, Result, anyhow};
@@ -112,17 +113,17 @@ struct What {
     #[arg(long, value_name = "INPUT=NUMBER")]
     weight: Vec<String>,
     /// Number of machines to take at random
-    #[arg(long, value_name = "N", group = "some")]
+    #[arg(long, value_name = "N", group = "some", value_parser = whole::<u32>(..))]
     sample: Option<u32>,
     /// Number of machines to look at in a search, for spaces that are too large to be run whole: half of them at random,
     /// the others neighbours of the best, on the first input; then the better half on twice as many inputs, and so on
-    #[arg(long, value_name = "N", group = "some")]
+    #[arg(long, value_name = "N", group = "some", value_parser = whole::<u32>(..))]
     search: Option<u32>,
     /// Seed of --sample or --search
-    #[arg(long, value_name = "S", requires = "some")]
+    #[arg(long, value_name = "S", requires = "some", value_parser = whole::<u64>(..))]
     seed: Option<u64>,
     /// Skip points without a proved bound of at most this many LSB for the input's triangles
-    #[arg(long, value_name = "LSB")]
+    #[arg(long, value_name = "LSB", value_parser = real(f64::NEG_INFINITY..=f64::INFINITY, "LSB"))]
     bound: Option<f64>,
     /// What a machine must keep, NAME<=NUMBER or NAME>=NUMBER by the names of the objectives (repeatable). Cells and
     /// clock are estimated without --synth; with it, only machines that the estimate's error leaves open are built
@@ -149,7 +150,7 @@ struct PlanArgs {
     #[command(flatten)]
     what: What,
     /// Number of parts; a part should take two minutes or more
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=10000))]
+    #[arg(long, value_name = "N", value_parser = whole::<u32>(1..=10000))]
     chunks: u32,
 }
 
@@ -159,7 +160,7 @@ struct RunArgs {
     #[arg(long, value_name = "DIR")]
     out: PathBuf,
     /// Number of the part, from 0; SLURM_ARRAY_TASK_ID or HQ_TASK_ID if left out
-    #[arg(long, value_name = "I")]
+    #[arg(long, value_name = "I", value_parser = whole::<u32>(..))]
     chunk: Option<u32>,
     /// Run the points with this status once more (repeatable)
     #[arg(long, value_enum, value_name = "STATUS")]

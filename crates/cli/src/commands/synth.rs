@@ -9,6 +9,7 @@ mod table;
 use crate::cost::cache_folder;
 use crate::document::document;
 use crate::machine_args::MachineArgs;
+use crate::number::whole;
 use crate::verdict::Verdict;
 use crate::{Talk, progress};
 use anyhow::{Context, Result, anyhow};
@@ -44,16 +45,16 @@ pub struct Args {
     #[arg(long, value_name = "TARGET", default_value = "ice40-hx8k", value_parser = target)]
     target: Vec<Target>,
     /// Place and route with the seeds 1 to N
-    #[arg(long, default_value_t = 5, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1000))]
+    #[arg(long, default_value_t = 5, value_name = "N", value_parser = whole::<u32>(1..=1000))]
     seeds: u32,
     /// Do not count the cells of each unit: one synthesis instead of two
     #[arg(long)]
     whole: bool,
     /// Tools that run at once; the number of cores if left out
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+    #[arg(long, value_name = "N", value_parser = whole::<u16>(1..))]
     jobs: Option<u16>,
     /// Time limit of each run of a tool, seconds
-    #[arg(long, default_value_t = 3600, value_name = "SECONDS", value_parser = clap::value_parser!(u64).range(1..))]
+    #[arg(long, default_value_t = 3600, value_name = "SECONDS", value_parser = whole::<u64>(1..))]
     limit: u64,
     /// Folder of the cache; $XDG_CACHE_HOME/edgewalk/synth or ~/.cache/edgewalk/synth if left out
     #[arg(long, value_name = "DIR")]

@@ -6,6 +6,7 @@ use crate::Talk;
 use crate::document::document;
 use crate::input::{PortFrame, Source, to_port};
 use crate::machine_args::MachineArgs;
+use crate::number::whole;
 use crate::suites::of_input;
 use crate::verdict::Verdict;
 use anyhow::{Context, Result, anyhow, ensure};
@@ -46,26 +47,26 @@ pub struct Args {
     #[arg(long, value_name = "FILE")]
     out: PathBuf,
     /// Draw this many triangles, polygons and lines of the input
-    #[arg(long, default_value_t = 10, value_parser = clap::value_parser!(u64).range(1..))]
+    #[arg(long, default_value_t = 10, value_parser = whole::<u64>(1..))]
     triangles: u64,
     /// Stop after this many cycles of waveform
-    #[arg(long, default_value_t = 20_000, value_parser = clap::value_parser!(u64).range(1..))]
+    #[arg(long, default_value_t = 20_000, value_parser = whole::<u64>(1..))]
     cycles: u64,
     /// First cycle of the waveform; times are those of the whole run
-    #[arg(long, value_name = "CYCLE", conflicts_with_all = ["pixel", "triangle"])]
+    #[arg(long, value_name = "CYCLE", conflicts_with_all = ["pixel", "triangle"], value_parser = whole::<u64>(..))]
     from: Option<u64>,
     /// Last cycle of the waveform
-    #[arg(long, value_name = "CYCLE", conflicts_with_all = ["pixel", "triangle"])]
+    #[arg(long, value_name = "CYCLE", conflicts_with_all = ["pixel", "triangle"], value_parser = whole::<u64>(..))]
     to: Option<u64>,
     /// The writes of this pixel, with 40 cycles before the first of them
-    #[arg(long, num_args = 2, value_names = ["X", "Y"], conflicts_with = "triangle")]
+    #[arg(long, num_args = 2, value_names = ["X", "Y"], conflicts_with = "triangle", value_parser = whole::<u32>(..))]
     pixel: Option<Vec<u32>>,
     /// Write save files beside the waveform, with the ports in groups and a format for each: .gtkw for GTKWave, .sucl
     /// for Surfer
     #[arg(long)]
     views: bool,
     /// The cycles from the entry of this triangle, polygon or line to its last write; 0 is the first one
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", value_parser = whole::<u32>(..))]
     triangle: Option<u32>,
 }
 

@@ -3,6 +3,7 @@
 use crate::document::document;
 use crate::input::{Source, to_port};
 use crate::machine_args::MachineArgs;
+use crate::number::whole;
 use crate::suites::{self, Set, check_unit, of_input, only, stalls};
 use crate::verdict::Verdict;
 use crate::{Talk, own};
@@ -37,12 +38,10 @@ pub struct Args {
     #[arg(long, requires = "input")]
     adapt: bool,
     /// Take this many triangles, polygons and lines of the input, evenly spread; all of them if left out
-    #[arg(long, requires = "input", value_parser = clap::value_parser!(u64).range(1..))]
+    #[arg(long, requires = "input", value_parser = whole::<u64>(1..))]
     triangles: Option<u64>,
-    /// Suites: hazards, corners, random, sphere, depth_never to depth_always, depth_unwritten; all suites of the units
-    /// if left out. Machines with BLEND have blend_add and color_unwritten; with SHADOW light and light_off; with
-    /// shadow.own_pass own_map and own_picture; with SHADE shade
-    #[arg(long, value_name = "NAME")]
+    // The help is made from the list of suites.
+    #[arg(long, value_name = "NAME", help = suites_help())]
     suite: Vec<String>,
     /// Units: machine, setup, edge, poly, span, term, pixel, texel, bump, normal, lamp, shade, project, shadow,
     /// dither, depth, blend; all units of the suite if left out
@@ -58,10 +57,10 @@ pub struct Args {
     #[arg(long, value_parser = stalls)]
     stalls: Option<StallKind>,
     /// Seed of the random suite and of the stalls
-    #[arg(long, default_value_t = 1)]
+    #[arg(long, default_value_t = 1, value_parser = whole::<u64>(..))]
     seed: u64,
     /// Triangles of the random suite
-    #[arg(long, default_value_t = 100, value_parser = clap::value_parser!(u64).range(1..))]
+    #[arg(long, default_value_t = 100, value_parser = whole::<u64>(1..))]
     count: u64,
     /// Omit the tables for people, *.csv, which are more than half of the bytes
     #[arg(long)]
@@ -69,6 +68,22 @@ pub struct Args {
     /// Output directory
     #[arg(long, value_name = "DIR", default_value = "out/vectors")]
     out: PathBuf,
+}
+
+/// The suites by name, and what a machine must have for them.
+fn suites_help() -> String {
+    let mut groups: Vec<(Option<&str>, Vec<&str>)> = Vec::new();
+    for suite in &SUITES {
+        match groups.last_mut().filter(|(needs, _)| *needs == suite.needs()) {
+            Some((_, names)) => names.push(suite.name),
+            None => groups.push((suite.needs(), vec![suite.name])),
+        }
+    }
+    let lists = groups.into_iter().map(|(needs, names)| match needs {
+        Some(needs) => format!("with {needs} {}", names.join(", ")),
+        None => names.join(", "),
+    });
+    format!("Suites: {}; all suites of the units if left out", lists.collect::<Vec<_>>().join("; "))
 }
 
 fn unit(name: &str) -> Result<Unit, String> {

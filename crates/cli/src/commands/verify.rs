@@ -2,11 +2,13 @@
 
 mod difference;
 mod events;
+mod nothing;
 mod own;
 
 use crate::document::document;
 use crate::input::{Source, to_port};
 use crate::machine_args::MachineArgs;
+use crate::number::whole;
 use crate::suites::{directed, functions, of_input, only, stalls, warn_of_gaps};
 use crate::verdict::Verdict;
 use crate::{Talk, jobs, junit, progress};
@@ -47,13 +49,13 @@ pub struct Args {
     #[command(flatten)]
     source: Source,
     /// Take this many triangles, polygons and lines of the input, evenly spread
-    #[arg(long, default_value_t = 50, value_parser = clap::value_parser!(u64).range(1..))]
+    #[arg(long, default_value_t = 50, value_parser = whole::<u64>(1..))]
     triangles: u64,
     /// Stalls by the bench: none, mixed, late; the suite's own if left out
     #[arg(long, value_parser = stalls)]
     stalls: Option<StallKind>,
     /// Seconds that a simulator may compile, and again that it may run
-    #[arg(long, default_value_t = 300, value_parser = clap::value_parser!(u64).range(1..))]
+    #[arg(long, default_value_t = 300, value_parser = whole::<u64>(1..))]
     limit: u64,
     /// Compare model and netlist only
     #[arg(long)]
@@ -116,6 +118,7 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
         name: "input".to_owned(),
         ..of_input(&args.source.input, &machine, &port, Some(args.triangles))?
     };
+    let taken = input.triangles().count();
     let suites = [vec![input], directed(&machine)?, functions(&machine)?].concat();
     let suites = only(suites, &args.only)?;
     let (checks, events) = match &wiring {
@@ -129,7 +132,7 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
         write_junit(file, &checks)?;
     }
     print(&machine, wiring.as_ref().zip(events.as_ref()), &checks, talk)?;
-    Ok(checks.iter().fold(Verdict::Pass, |all, c| all.and(c.verdict())))
+    nothing::verdict(args, &machine, taken, &checks)
 }
 
 /// The names of the suites that Verilator runs too: a build with it takes seconds, and the whole machine under input and
@@ -163,8 +166,8 @@ fn ours(args: &Args, machine: &Plan, suites: Vec<Suite>, talk: Talk) -> Result<V
                 design::verilog(machine, *unit).map_err(|e| anyhow!("the netlist cannot be built: {e}"))?;
             let folder = write(directory(suite, &trace, &verilog, Tables::LeftOut))?;
             for simulator in simulators {
-                let expected = trace.expected();
-                checks.push(in_simulator(*simulator, folder.path(), limit, suite, *unit, expected)?);
+                let due = Due { tokens: trace.tokens_out(), all: trace.expected() };
+                checks.push(in_simulator(*simulator, folder.path(), limit, suite, *unit, due)?);
             }
         }
         Ok((checks, (*unit, reached(&trace))))
@@ -209,13 +212,22 @@ fn write(files: Files) -> Result<Scratch> {
     Ok(folder)
 }
 
+/// What a bench has to compare.
+#[derive(Clone, Copy)]
+struct Due {
+    /// Tokens that the design has to give.
+    tokens: u64,
+    /// Tokens and changes of the status.
+    all: u64,
+}
+
 fn in_simulator(
     simulator: Simulator,
     folder: &Path,
     limit: Duration,
     suite: &Suite,
     unit: Unit,
-    expected: u64,
+    due: Due,
 ) -> Result<Check> {
     let work = Scratch::temporary()?;
     let outcome = simulate(simulator, folder, work.path(), limit)
@@ -224,11 +236,11 @@ fn in_simulator(
         Outcome::Pass { checked, met } => (checked, None, met),
         Outcome::Mismatch { checked, lines, .. } => (checked, Some(lines.join("\n      ")), BTreeMap::new()),
         Outcome::Vacuous => {
-            let none = (expected > 0).then(|| format!("no token came: expected {expected}, found 0"));
+            let none = (due.tokens > 0).then(|| format!("no token came: expected {}, found 0", due.all));
             (0, none, BTreeMap::new())
         }
     };
-    let suite = suite.name.clone();
+    let (suite, expected) = (suite.name.clone(), due.all);
     Ok(Check { suite, unit: unit.name(), against: simulator.name(), checked, expected, difference, met })
 }
 

@@ -192,12 +192,12 @@ fn malformed_searches_are_refused() {
         (&["--search", "0"][..], "--search 0: permitted: 32 to 200000 machines with 1 points each"),
         (&["--search", "31"], "permitted: 32 to 200000"),
         (&["--search", "-1"], "invalid value '-1' for '--search <N>': -1 is not in 0..="),
-        (&["--search", "many"], "invalid digit"),
+        (&["--search", "many"], "'many' for '--search <N>': permitted: whole numbers in 0..=4294967295\n"),
         (&["--search", "1872"], "--search 1872: there are 1872 machines; leave --search out"),
         (&["--search", "64", "--sample", "64"], "cannot be used with"),
         (&["--seed", "3"], "--sample <N>|--search <N>"),
         (&["--search", "64", "--synth", "ice40-hx8k"], "nothing is built in a search"),
-        (&["--search", "64", "--seed", "one"], "invalid digit"),
+        (&["--search", "64", "--seed", "one"], "'one' for '--seed <S>': permitted: whole numbers in 0..\n"),
     ] {
         let words = [&["sweep", "a.tri", "--out", "out"][..], &VARY, words].concat();
         let (code, said) = run(folder.path(), &words);

@@ -1,7 +1,7 @@
 //! Pixels that were compared, and those that are wrong whatever their values.
 
 use edgewalk_host::raster::Cycles;
-use edgewalk_machine::Plan;
+use edgewalk_machine::{EdgeKind, Plan};
 use serde::Serialize;
 
 /// What was counted.
@@ -32,6 +32,9 @@ pub struct Counts {
     pub off_pattern: Option<u64>,
     /// Cycles of the machine without a cause, or with two.
     pub cycles_unexplained: u64,
+    /// Fraction bits of the machine's edges, if these are slopes, which err (bound 5).
+    #[serde(skip)]
+    pub(super) slope_bits: Option<u32>,
 }
 
 impl Counts {
@@ -49,6 +52,7 @@ impl Counts {
             wrapped: 0,
             off_pattern: None,
             cycles_unexplained: cycles.map_or(0, |cycles| cycles.unexplained()),
+            slope_bits: (machine.edge_kind == EdgeKind::Slope).then_some(machine.edge_fraction),
         }
     }
 
@@ -69,9 +73,17 @@ impl Counts {
     }
 
     pub(super) fn lines_of_coverage(&self) -> String {
-        let Counts { compared, covered, coverage_mismatches, pixels, .. } = self;
+        let Counts { compared, covered, coverage_mismatches, pixels, slope_bits, .. } = self;
+        let slopes = slope_bits.filter(|_| *coverage_mismatches > 0).map_or_else(String::new, |bits| {
+            format!(
+                "slope edges of {bits} fraction bits err by at most 1/{} px a line: a centre within that may mismatch; \
+                 edges of edge.kind = exact do not err\n",
+                1u64 << (bits + 1)
+            )
+        });
         format!(
-            "compared {compared} / {covered} covered pixels\ncoverage mismatches {coverage_mismatches} / {pixels}\n"
+            "compared {compared} / {covered} covered pixels\n\
+             coverage mismatches {coverage_mismatches} / {pixels}\n{slopes}"
         )
     }
 

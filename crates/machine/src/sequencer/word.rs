@@ -124,9 +124,9 @@ pub enum Corner {
 /// Which word of a vertex.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Part {
-    /// x of the port, in 1/P px.
+    /// x of the port, as a centre coordinate: 1/2^t px, with t fraction bits.
     X,
-    /// y of the port, in 1/P px.
+    /// y of the port, as a centre coordinate: 1/2^t px, with t fraction bits.
     Y,
     /// The value of the lane's channel of the round.
     Value,

@@ -10,24 +10,38 @@
 
 /// A dynamic memory behind one controller: a word of it holds depth and colour of a pixel, an open page answers at once.
 /// While it works on something neither port is ready.
+///
+/// It is made from its description alone, which is checked: a memory that refreshes without end, or has no page, is an
+/// error there.
+/// ```
+/// use edgewalk_model::Waits;
+/// assert!("dram:refresh=780,busy=13".parse::<Waits>().is_ok());
+/// let error = "dram:refresh=13,busy=13".parse::<Waits>().map_err(|error| error.to_string());
+/// assert_eq!(error, Err("dram: refresh = 13 is not permitted with busy = 13 (0, or more than busy)".to_owned()));
+/// ```
+/// ```compile_fail,E0451
+/// use edgewalk_model::{Dram, Waits};
+/// let endless = Dram { banks: 4, page: 256, miss: 6, turn: 2, refresh: 13, busy: 13, word: 1, line: 1 };
+/// let waits = Waits::Dram(endless);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Dram {
     /// Banks, each with one page open; page p lies in bank p mod `banks`.
-    pub banks: u32,
+    pub(super) banks: u32,
     /// Words of a page.
-    pub page: u32,
+    pub(super) page: u32,
     /// Clocks to close a page and open another.
-    pub miss: u32,
+    pub(super) miss: u32,
     /// Clocks to turn from reads to writes or back.
-    pub turn: u32,
+    pub(super) turn: u32,
     /// Clocks from refresh to refresh, which closes all pages, more than `busy`; 0: none.
-    pub refresh: u32,
+    pub(super) refresh: u32,
     /// Clocks that a refresh takes.
-    pub busy: u32,
+    pub(super) busy: u32,
     /// Clocks that the word of an access takes.
-    pub word: u32,
+    pub(super) word: u32,
     /// Words of a line that reads bring as a burst, and in which writes are gathered; 1: no lines.
-    pub line: u32,
+    pub(super) line: u32,
 }
 
 /// What the pages of a dynamic memory did.

@@ -13,7 +13,7 @@ pub(super) struct Finds<'m> {
     pub found: Reg<'m>,
 }
 
-/// Lengths of the edge, 1/P line.
+/// Lengths of the edge, in 1/2^t px; t are the fraction bits of centre coordinates.
 pub(super) struct Lengths<'m> {
     /// From its upper to its lower end.
     pub height: Signal<'m>,

@@ -9,7 +9,7 @@ use super::top::top;
 
 /// The triangle's area.
 pub(super) struct Area<'m> {
-    /// du1·dv2 - du2·dv1, 1/P² px², signed.
+    /// du1·dv2 - du2·dv1, twice the area, in 1/2^(2t) px², signed; t are the fraction bits of centre coordinates.
     pub signed: Signal<'m>,
     /// The area is below 0: the major edge lies right.
     pub negative: Signal<'m>,
@@ -35,7 +35,8 @@ impl<'m> Area<'m> {
             of.shr_by(digit.q()).bit(0).mux(value.sext(value.width() + 1), 0)
         };
         let added = (part(tall, vertices.across[1]) - part(upper, vertices.across[0])).named("area_part");
-        let area = m.reg("area", bits).doc("1/P^2 px^2, signed");
+        let parts = 2 * plan.widths().center_fraction;
+        let area = m.reg("area", bits).doc(&format!("twice the area, 1/{} px^2, signed", 1u64 << parts));
         area.when(adds.q(), area.q().shl(1) + added.sext(bits)).when(control.sequence.begin, 0);
         control.feedback.no_area.drive(!area.q().any());
         Area { signed: area.q(), negative: area.q().msb(), adds: adds.q(), ends: adds.q() & last }

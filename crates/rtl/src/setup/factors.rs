@@ -6,7 +6,7 @@ use edgewalk_netlist::{Module, Reg, Signal};
 use super::area::Area;
 use super::control::Control;
 use super::lines::Lines;
-use super::sort::Vertices;
+use super::sort::{Vertices, center_unit};
 use super::steps::{Op, edge_of, rounds};
 use super::top::top;
 use super::walked::Walked;
@@ -128,7 +128,10 @@ impl<'m> Sources<'_, 'm> {
         let sheared = first.sext(bits) - self.vertices.u(0).sext(bits) - products[1].q();
         let sheared = m
             .reg("first_sheared", bits)
-            .doc("from vertex 0 to the first pixel, less q columns a line; 1/P column, signed")
+            .doc(&format!(
+                "from vertex 0 right to the first pixel, less q px a line; {}, signed",
+                center_unit(self.plan)
+            ))
             .when(self.control.way.next.is_in(Op::Wait, 0), sheared);
         [(vec![Op::DoubleX], along), (vec![Op::AddX], [sheared.q(), self.lines.h0.zext(bits)])]
     }
@@ -162,7 +165,7 @@ impl<'m> Sources<'_, 'm> {
         top(digits.named_doc("digits", "digits of the factors that differ from their signs"))
     }
 
-    /// The part of an upper end's column below a whole one; textbook fill adds 1/2, which is 1/P there.
+    /// The part of an upper end's column below a whole one; textbook fill adds 1/2 px, the last bit there.
     fn low_column(&self, place: usize) -> Signal<'m> {
         let low = self.vertices.u(place).trunc(self.plan.widths().center_fraction);
         if self.plan.fill == Fill::Textbook { low | 1 } else { low }

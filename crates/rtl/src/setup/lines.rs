@@ -7,7 +7,7 @@ use super::area::Area;
 use super::control::Control;
 use super::polygon::Polygon;
 use super::role::Role;
-use super::sort::Vertices;
+use super::sort::{Vertices, center_unit};
 use crate::light_pass::LightPass;
 use crate::wires::Registers;
 
@@ -63,7 +63,8 @@ impl<'m> Screen<'_, 'm> {
     }
 }
 
-/// First lines, signed, G + 2 bits, and how far below the upper ends of edges they lie, 1/P line.
+/// First lines, signed, G + 2 bits, and how far below the upper ends of edges they lie, in
+/// 1/2^t px; t are the fraction bits of centre coordinates.
 pub(super) struct Lines<'m> {
     /// First line of the triangle.
     pub jm: Signal<'m>,
@@ -96,21 +97,24 @@ impl<'m> Lines<'m> {
         let upper = prim["n1"].q().any().named("upper");
         let jm = upper.mux(j0, j1).named_doc("jm", "first line of the triangle");
         let bits = plan.widths().difference;
-        let down = |name: &str, from: usize, to: Signal<'m>, bits: u32| {
+        let down = |name: &str, from: usize, (what, to): (&str, Signal<'m>), bits: u32| {
             let line = m.cat(&[to, m.lit(plan.widths().center_fraction, 0)]).trunc(bits);
             let v = vertices.v(from);
             let v = if bits > v.width() { v.sext(bits) } else { v.trunc(bits) };
-            (line - v).named_doc(name, "1/P line")
+            (line - v).named_doc(name, &format!("from vertex {from} down to {what}, {}", center_unit(plan)))
         };
         // The first line is the vertex's own but for one above the screen, and none is farther above than
         // half a difference; a window may begin a screen below that.
         let bits_of_h = if screen.polygon.is_some() { bits - 1 } else { bits - 2 };
-        let (h0, h1) = (down("h0", 0, jm, bits_of_h), down("h1", 1, j1, bits_of_h));
+        let first = ("the first line", jm);
+        let [part1, part2] = [("the first line of part 1", j0), ("the first line of part 2", j1)];
+        let (h0, h1) = (down("h0", 0, first, bits_of_h), down("h1", 1, part2, bits_of_h));
         let (left_a, left_b) = match plan.fill {
             Fill::Exact => (h0, h1),
-            Fill::Textbook => {
-                (down("left_a", 0, j0, bits), area.negative.mux(h1.zext(bits), down("left_b", 0, j1, bits)))
-            }
+            Fill::Textbook => (
+                down("left_a", 0, part1, bits),
+                area.negative.mux(h1.zext(bits), down("left_b", 0, part2, bits)),
+            ),
         };
         Lines { jm, h0, h1, left_a, left_b }
     }
@@ -126,12 +130,17 @@ fn no_column<'m>(screen: &Screen<'_, 'm>, vertices: &Vertices<'m>) -> Signal<'m>
     let u = [0, 1, 2].map(|place| vertices.u(place));
     let (bits, last) = (u[0].width() - t, screen.last_column(u[0].width()));
     let columns = u.map(|u| u.slice(u.width() - 1, t) + u.trunc(t).any().zext(bits));
-    let column = |place: usize| columns[place].named_doc(&format!("column{place}"), "ceil(u/P)");
+    let column = |place: usize| {
+        columns[place]
+            .named_doc(&format!("column{place}"), "the first column of centres at or right of the vertex")
+    };
     let [a, b, c] = [column(0), column(1), column(2)];
     let none_between = (a.eq(b) & b.eq(c)).named("none_between");
     let all = |is: &dyn Fn(Signal<'m>) -> Signal<'m>| is(u[0]) & is(u[1]) & is(u[2]);
-    let before = all(&|u| u.msb() | !u.any()).named_doc("before_screen", "ceil(u/P) is 0 or less");
-    let behind = all(&|u| !u.sle(last)).named_doc("behind_screen", "ceil(u/P) is W or more");
+    let before = all(&|u| u.msb() | !u.any())
+        .named_doc("before_screen", "no vertex lies right of the first column of centres");
+    let behind = all(&|u| !u.sle(last))
+        .named_doc("behind_screen", "every vertex lies right of the last column of centres");
     none_between | before | behind
 }
 
@@ -152,15 +161,19 @@ fn exact<'m>(
     counts: [Reg<'m>; 2],
 ) -> (Signal<'m>, Signal<'m>) {
     let Screen { m, plan, .. } = *screen;
-    m.comment("Lines: from ceil(v/P) of the upper to before ceil(v/P) of the lower end, on the screen.");
+    m.comment(
+        "Lines: those whose centres lie at or below the upper end and above the lower end, on the screen.",
+    );
     let (bits, t) = (plan.widths().column, plan.widths().center_fraction);
     let line = |place: usize, name: &str| {
         let v = vertices.v(place);
         // What is above the screen has line 0 whatever else it is: v without its sign.
         let down = v.trunc(v.width() - 1);
         let up = v.trunc(t).any().zext(bits);
-        let ceil = (down.slice(down.width() - 1, t).zext(bits) + up)
-            .named_doc(&format!("line{place}"), "ceil(v/P) of one that is not above the screen");
+        let ceil = (down.slice(down.width() - 1, t).zext(bits) + up).named_doc(
+            &format!("line{place}"),
+            "the first line of centres at or below the vertex, if that is not above the screen",
+        );
         let line = match screen.polygon {
             None => {
                 let on_screen = down.le(screen.last_center(down.width())).mux(ceil, screen.height(bits));

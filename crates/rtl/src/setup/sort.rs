@@ -30,9 +30,7 @@ pub(super) struct Vertices<'m> {
 impl<'m> Vertices<'m> {
     /// Takes a triangle, sorted by v at the port; of equal v the earlier vertex stays first.
     pub fn new(m: &'m Module, plan: &Plan, control: &Control<'m>, triangle: &Token<'m>) -> Vertices<'m> {
-        m.comment(
-            "The vertices sorted by line, in centre coordinates: pixel centres lie on the multiples of P.",
-        );
+        m.comment("The vertices sorted by line, in centre coordinates: pixel centres lie on whole numbers.");
         let y = |vertex: usize| triangle[format!("y{vertex}").as_str()];
         let above =
             |lower: usize, upper: usize| y(lower).slt(y(upper)).named(&format!("y{lower}_above_y{upper}"));
@@ -74,24 +72,26 @@ impl<'m> Vertices<'m> {
 
         m.comment("Differences of the sorted vertices, from upper to lower ends of edges.");
         let bits = plan.widths().difference;
-        let kept = |name: &str, (from, to): (usize, usize), doc: &str, value: Signal<'m>| {
-            m.reg(&format!("{name}{from}{to}"), value.width()).doc(doc).set(value).q()
+        let unit = center_unit(plan);
+        let kept = |name: &str, (from, to): (usize, usize), (way, sign): (&str, &str), value: Signal<'m>| {
+            let doc = format!("from vertex {from} {way} vertex {to}, {unit}{sign}");
+            m.reg(&format!("{name}{from}{to}"), value.width()).doc(&doc).set(value).q()
         };
         let below = |(from, to): (usize, usize)| places[to]["v"].q() - places[from]["v"].q();
         let beside =
             |(from, to): (usize, usize)| places[to]["u"].q().sext(bits) - places[from]["u"].q().sext(bits);
         let tall = below(ENDS[0]).named("tall");
-        let heights = ENDS.map(|ends| kept("dv", ends, "1/P line", below(ends)));
-        let across = ENDS.map(|ends| kept("du", ends, "1/P column, signed", beside(ends)));
+        let heights = ENDS.map(|ends| kept("dv", ends, ("down to", ""), below(ends)));
+        let across = ENDS.map(|ends| kept("du", ends, ("right to", ", signed"), beside(ends)));
         Vertices { places, values, order, tall, heights, across }
     }
 
-    /// Column of a vertex, 1/P column, signed.
+    /// Centre coordinate of a vertex along the line, in 1/2^t px, signed.
     pub fn u(&self, place: usize) -> Signal<'m> {
         self.places[place]["u"].q()
     }
 
-    /// Line of a vertex, 1/P line, signed.
+    /// Centre coordinate of a vertex down the screen, in 1/2^t px, signed.
     pub fn v(&self, place: usize) -> Signal<'m> {
         self.places[place]["v"].q()
     }
@@ -117,6 +117,11 @@ fn values(plan: &Plan) -> Vec<Part> {
         doc: format!("{} LSB", channel.vertex_format()),
     };
     plan.channels().iter().map(value).collect()
+}
+
+/// The unit of a centre coordinate without its point: 1/256 px of 8 fraction bits.
+pub(super) fn center_unit(plan: &Plan) -> String {
+    format!("1/{} px", 1 << plan.widths().center_fraction)
 }
 
 /// A port's coordinate as a centre coordinate.

@@ -67,6 +67,12 @@ pub struct Wiring {
 }
 
 impl Wiring {
+    /// Tokens of a trace that the design has to give at its ports.
+    #[must_use]
+    pub fn tokens(&self, trace: &Trace) -> u64 {
+        self.outside(trace).tokens_out()
+    }
+
     /// What a bench has to compare of a trace.
     #[must_use]
     pub fn expected(&self, trace: &Trace) -> u64 {

@@ -1,6 +1,7 @@
 //! Two designs under the same inputs, and whether a port that counts differs, as Verilog.
 
 use edgewalk_lockstep::{Direction, Interface, Link, Port, status_ports};
+use edgewalk_machine::Until;
 use edgewalk_netlist::Netlist;
 use edgewalk_netlist::mutate::DIFFERS;
 use std::fmt::Write as _;
@@ -17,6 +18,31 @@ pub struct Ports {
     outputs: Vec<(String, u32)>,
     /// Outputs that count; with the port that must be 1 for it.
     compared: Vec<(String, Option<String>)>,
+    /// Registers of the miter: high from a token to the clock in which a condition, in Verilog, ends its time.
+    windows: Vec<Window>,
+}
+
+/// The cycles in which values that a unit holds beside a link count: from a token there to the next triangle.
+struct Window {
+    /// Name of the register.
+    name: String,
+    /// The port that says that a token is offered.
+    valid: String,
+    /// The condition under which the next triangle is taken.
+    taken: String,
+}
+
+impl Window {
+    /// Of a link of the interface, if values are held beside it.
+    fn of(interface: &Interface, link: &Link) -> Option<Window> {
+        let taken = interface.links_of(Direction::In).next().filter(|_| link.holds())?;
+        let mut condition = format!("{0}_valid && {0}_ready", taken.name);
+        if let Some(Until::TakenWith(flag)) = link.held_until {
+            let _ = write!(condition, " && {}", taken.fields[taken.place(flag)?].name);
+        }
+        let valid = format!("{}_valid", link.name);
+        Some(Window { name: format!("{}_kept", link.name), valid, taken: condition })
+    }
 }
 
 impl Ports {
@@ -29,6 +55,7 @@ impl Ports {
             constants: Vec::new(),
             outputs: outputs.collect(),
             compared: module.outputs.iter().map(|output| (output.name.clone(), None)).collect(),
+            windows: Vec::new(),
         }
     }
 
@@ -55,11 +82,23 @@ impl Ports {
             };
             ports.into_iter().map(move |port| (port, Some(valid.clone())))
         };
+        // Held values count between the tokens too.
+        let windows = interface.links.iter().filter_map(|link| Some((link, Window::of(interface, link)?)));
+        let (held, windows): (Vec<_>, Vec<Window>) = windows
+            .map(|(link, window)| {
+                let during = Some(window.name.clone());
+                (link.held().iter().map(move |port| (port.name.clone(), during.clone())), window)
+            })
+            .unzip();
         Ports {
             inputs: widths(interface.inputs()),
             constants: interface.constants.iter().map(|port| port.name.clone()).collect(),
             outputs: widths(interface.outputs()),
-            compared: status.chain(interface.links.iter().flat_map(of_link)).collect(),
+            compared: status
+                .chain(interface.links.iter().flat_map(of_link))
+                .chain(held.into_iter().flatten())
+                .collect(),
+            windows,
         }
     }
 }
@@ -97,6 +136,13 @@ pub fn miter(ports: &Ports, original: &Netlist, faulty: &Netlist) -> String {
     }
     for (port, width) in &ports.outputs {
         let _ = writeln!(body, "wire {} {port}, other_{port};", range(*width));
+    }
+    for Window { name, valid, taken } in &ports.windows {
+        let _ = writeln!(
+            body,
+            "reg {name};\ninitial {name} = 1'b0;\n\
+             always @(posedge clk) {name} <= !rst && !({taken}) && ({name} || {valid});"
+        );
     }
     let connections = |netlist: &Netlist, prefix: &str| {
         // A fault may take away the only register with a reset, and the port with it.

@@ -133,6 +133,21 @@ impl Entry {
             Kind::Shapes(..) | Kind::Function(..) => true,
         }
     }
+
+    /// The unit, or the key, that a machine must have for the suite; none for a suite of every machine.
+    #[must_use]
+    pub fn needs(&self) -> Option<&'static str> {
+        match self.kind {
+            Kind::Colors { .. } => Some("BLEND"),
+            Kind::Light { .. } => Some("SHADOW"),
+            Kind::Lines => Some("polygon.lines"),
+            Kind::Polygons(_) => Some("POLY"),
+            Kind::OwnMap { .. } => Some("shadow.own_pass"),
+            Kind::Dither => Some("DITHER"),
+            Kind::Shade => Some("SHADE"),
+            Kind::Shapes(..) | Kind::Function(..) => None,
+        }
+    }
 }
 
 /// The suites that come with the program.

@@ -97,6 +97,37 @@ fn no_fault_that_is_seen_is_proved_equivalent() {
     assert!(seen >= 4);
 }
 
+/// A unit with EDGE's ports that takes a triangle, offers one line, and waits. With the fault its increment follows the
+/// port before the next triangle is taken, in cycles in which no line is offered: the suites see that, so the prover must.
+#[test]
+fn values_held_too_short_are_no_equivalent() {
+    let interface = Interface::new(&machine_for(common::EDGE), common::EDGE);
+    let m = Module::new("holder", "");
+    let inputs: Vec<_> =
+        interface.inputs().iter().map(|port| (&port.name, m.input(&port.name, port.width()))).collect();
+    let [prim_valid, line_ready, prim_z_g] = ["prim_valid", "line_ready", "prim_z_g"]
+        .map(|name| inputs.iter().find(|(port, _)| *port == name).expect("a port of EDGE").1);
+    let running = m.reg("running", 1).reset(0);
+    let idle = !running.q();
+    running.when(running.q() & line_ready, 0).when(idle & prim_valid, 1);
+    let held = m.reg("held", prim_z_g.width());
+    held.when(prim_valid, idle.mux(prim_z_g, held.q()));
+    for port in interface.outputs() {
+        let value = match port.name.as_str() {
+            "prim_ready" => idle,
+            "line_valid" => running.q(),
+            "inc_z" => held.q(),
+            _ => m.lit(port.width(), 0),
+        };
+        m.output(&port.name, value);
+    }
+    let netlist = m.finish().expect("a module");
+    let all = mutants(&netlist);
+    let wanted = "`held` is updated always instead of when `prim_valid`";
+    let fault = all.iter().find(|mutant| mutant.description == wanted).expect("a fault of the register");
+    assert_eq!(prove(&interface, &netlist, fault, true).expect("Yosys is installed"), Proof::Differs);
+}
+
 /// A ROM of four words of two bits behind an address that is never 3; nothing sees bit 1 of word 2.
 #[test]
 fn a_bit_of_a_rom_that_nobody_sees_is_equivalent() {

@@ -1,7 +1,7 @@
 //! A user's own design under the suites of its unit.
 
 use super::events::Events;
-use super::{Args, Check, in_simulator, write};
+use super::{Args, Check, Due, in_simulator, write};
 use crate::suites::warn_of_gaps;
 use crate::verdict::Verdict;
 use crate::{Talk, jobs, progress};
@@ -37,12 +37,12 @@ pub fn checks(
     let bar = progress::bar(work.len() as u64, "suites", talk.quiet);
     let done = jobs::all(&work, &bar, |(simulator, suite)| {
         let trace = Runs::new(machine, suite, suite.state).capture(unit, args.stalls.unwrap_or(suite.stalls));
-        let expected = wiring.expected(&trace);
-        if expected == 0 && trace.tokens_out() > 0 {
+        let due = Due { tokens: wiring.tokens(&trace), all: wiring.expected(&trace) };
+        if due.tokens == 0 && trace.tokens_out() > 0 {
             return Ok(None);
         }
         let folder = write(directory_for(suite, &trace, wiring, Tables::LeftOut))?;
-        let check = in_simulator(*simulator, folder.path(), limit, suite, unit, expected)?;
+        let check = in_simulator(*simulator, folder.path(), limit, suite, unit, due)?;
         Ok(Some((check, (unit, reached(&trace)))))
     })?;
     bar.finish_and_clear();

@@ -29,7 +29,7 @@ const DOC: &str = "SETUP turns three vertices, which come word by word, into edg
   ROM ─> word: which row, which step, which result, which word comes next
   [f, g] ─> digits: which row of a table is added
 
-Formats: see the ports; P = 2^t is a pixel in centre coordinates.
+Formats: see the ports; in centre coordinates pixel centres lie on whole numbers.
 Timing: a word names a row in its first clock, does its step in the second; in the third A and W are written, and leave.
 Rules: section 2 of the specification prints the program.";
 

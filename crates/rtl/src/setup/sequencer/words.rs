@@ -72,7 +72,7 @@ pub(super) fn words<'m>(
     }
 }
 
-/// A word with its sign, of coordinates in 1/P px.
+/// A word with its sign, of coordinates in units of their last bit.
 fn taken<'m>(
     parts: &Parts<'_, 'm>,
     lane: usize,
