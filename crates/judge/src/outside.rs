@@ -35,7 +35,7 @@ use std::collections::BTreeMap;
 /// Judges `outside` beside golden's picture of `frame`, which has triangles only, by this rule of coverage.
 ///
 /// # Errors
-/// The pictures have different sizes, or golden cannot draw the frame by the rule.
+/// The pictures have different sizes, no array is in both, or golden cannot draw the frame by the rule.
 pub fn beside_golden(
     machine: &Plan,
     frame: &Frame,
@@ -64,7 +64,7 @@ pub fn beside_golden(
 /// Judges `outside` beside the picture `drawn` that the machine makes of `frame`, which has triangles only: every value must be equal.
 ///
 /// # Errors
-/// The pictures have different sizes.
+/// The pictures have different sizes, or no array is in both.
 pub fn beside_machine(
     machine: &Plan,
     frame: &Frame,
@@ -93,6 +93,17 @@ fn judge(
         permitted.0,
         permitted.1
     );
+    let mut judgement = Judgement::new(reference, outside, *tolerance);
+    ensure!(
+        !judgement.compared.is_empty(),
+        "no array can be compared: {}; permitted: one or more of coverage, id, z and rgb{}; add one of these to the picture",
+        if outside.lit.is_some() {
+            "lit is the only one, and the picture of a machine without SHADOW has none"
+        } else {
+            "the picture has none"
+        },
+        if reference.lit.is_some() { ", or lit" } else { "" }
+    );
     let judge = Judge { frame, reference, outside, tolerance, layers: Layers::of(machine, frame, None) };
     let pixels = reference.coverage.len();
     let differ: Vec<usize> = (0..pixels).filter(|pixel| !judge.agrees(*pixel)).collect();
@@ -100,7 +111,6 @@ fn judge(
         Fill::Exact { subpixel_bits } if judge.is_plain() => all_over(machine, frame, subpixel_bits, &differ),
         _ => BTreeMap::new(),
     };
-    let mut judgement = Judgement::new(reference, outside, *tolerance);
     let mut left = differ.iter().peekable();
     for pixel in 0..pixels {
         if left.next_if_eq(&&pixel).is_some() {
