@@ -48,3 +48,36 @@ fn judge_that_compares_nothing_ends_with_2() {
     let (code, report, error) = judged(folder.path(), &["g/lit.npy"]);
     assert_eq!((code, &report["compared"]), (Some(0), &serde_json::json!(["lit"])), "{error}");
 }
+
+/// Six layers of glass over half of the screen.
+fn glass() -> String {
+    let layer = |n: u32| {
+        let (z, c) = (f64::from(6 - n) / 10.0, f64::from(n % 4) / 3.0);
+        format!("T 0 0 {z} 1 {c} 0.3 .5  32 0 {z} {c} 1 0.1 .5  0 32 {z} 0.2 {c} 1 .5\n")
+    };
+    "size 32 32\nblend 1\n".to_owned() + &(0..6).map(layer).collect::<String>()
+}
+
+/// Bits that are the machine's own are no other format: the bound of the layers holds. Other bits have 1 LSB.
+#[test]
+fn bits_of_the_machine_leave_its_bounds() {
+    let glass = glass();
+    for (text, set) in [(TWO, "blend.kind=none"), (&glass[..], "blend.kind=constant")] {
+        let (folder, set) = (folder(text), ["--set", set]);
+        raster(folder.path(), &set, "m");
+        let judged = |options: &[&str]| judged(folder.path(), &[&["m"], &set[..], options].concat());
+        let (code, report, error) = judged(&[]);
+        let (own, other) = (["--color-bits", "8", "--depth-bits", "24"], ["--color-bits", "7"]);
+        assert_eq!(code, Some(0), "{error}{report}");
+        let (code, with_bits, error) = judged(&own);
+        assert_eq!((code, &with_bits), (Some(0), &report), "{error}");
+        assert_eq!(judged(&other).1["tolerance"]["color"], 1.0);
+        let is_glass = text != TWO;
+        let layers = &report["tolerance"]["layers"];
+        assert_eq!(layers.as_f64().is_some_and(|most| most > 1.0), is_glass, "{layers}");
+        assert!(judged(&other).1["tolerance"]["layers"].is_null());
+        let text =
+            edgewalk(folder.path(), &["judge", "in.tri", "m", set[0], set[1]]).output().unwrap().stdout;
+        assert_eq!(String::from_utf8(text).unwrap().contains("behind the layers of a pixel"), is_glass);
+    }
+}

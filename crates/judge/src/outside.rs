@@ -93,7 +93,9 @@ fn judge(
         permitted.0,
         permitted.1
     );
-    let mut judgement = Judgement::new(reference, outside, *tolerance);
+    let layers = Layers::of(machine, frame, None).filter(|_| !tolerance.is_asked_for);
+    let largest = layers.as_ref().map(|layers| layers.bound.iter().copied().fold(0.0, f64::max));
+    let mut judgement = Judgement::new(reference, outside, Tolerance { layers: largest, ..*tolerance });
     ensure!(
         !judgement.compared.is_empty(),
         "no array can be compared: {}; permitted: one or more of coverage, id, z and rgb{}; add one of these to the picture",
@@ -104,7 +106,7 @@ fn judge(
         },
         if reference.lit.is_some() { ", or lit" } else { "" }
     );
-    let judge = Judge { frame, reference, outside, tolerance, layers: Layers::of(machine, frame, None) };
+    let judge = Judge { frame, reference, outside, tolerance, layers };
     let pixels = reference.coverage.len();
     let differ: Vec<usize> = (0..pixels).filter(|pixel| !judge.agrees(*pixel)).collect();
     let over = match fill {
@@ -129,7 +131,7 @@ struct Judge<'a> {
     reference: &'a Raster,
     outside: &'a Picture,
     tolerance: &'a Tolerance,
-    /// Of a frame that is blended, whose colours have a bound of their own at each pixel.
+    /// Of a frame that is blended, whose colours have a bound of their own at each pixel, unless the user gave a tolerance.
     layers: Option<Layers>,
 }
 
@@ -157,8 +159,7 @@ impl Judge<'_> {
 
     /// Largest permitted errors of depth and colour at a pixel, LSB.
     fn permitted(&self, pixel: usize) -> [f64; 2] {
-        let layers = self.layers.as_ref().filter(|_| !self.tolerance.is_asked_for);
-        [self.tolerance.z, layers.map_or(self.tolerance.color, |layers| layers.bound[pixel])]
+        [self.tolerance.z, self.layers.as_ref().map_or(self.tolerance.color, |layers| layers.bound[pixel])]
     }
 
     fn within(&self, pixel: usize, errors: [f64; 2]) -> bool {

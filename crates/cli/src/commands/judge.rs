@@ -56,10 +56,10 @@ pub struct Args {
     /// Bits of a colour of the picture [default: formats.color_bits]
     #[arg(long, value_name = "BITS", value_parser = whole::<u32>(1..=48))]
     color_bits: Option<u32>,
-    /// Largest permitted error of a depth, LSB [default: the proved bound of the machine; with --depth-bits 1]
+    /// Largest permitted error of a depth, LSB [default: the proved bound of the machine; 1 if --depth-bits is not formats.z_bits]
     #[arg(long, value_name = "LSB", value_parser = real(0.0..=f64::INFINITY, "LSB"))]
     depth_lsb: Option<f64>,
-    /// Largest permitted error of a colour, LSB [default: the proved bound of the machine; with --color-bits 1]
+    /// Largest permitted error of a colour, LSB [default: the proved bound of the machine; 1 if --color-bits is not formats.color_bits]
     #[arg(long, value_name = "LSB", value_parser = real(0.0..=f64::INFINITY, "LSB"))]
     color_lsb: Option<f64>,
     /// Output directory for judge.json, judge.xml (JUnit) and differences.png

@@ -256,13 +256,15 @@ impl Judgement {
             self.wrong()
         );
         let kinds = [
-            ("depth", tolerance.z, tolerance.z_bits, largest_error_lsb[0]),
-            ("colour", tolerance.color, tolerance.color_bits, largest_error_lsb[1]),
+            ("depth", tolerance.z, tolerance.z_bits, None, largest_error_lsb[0]),
+            ("colour", tolerance.color, tolerance.color_bits, tolerance.layers, largest_error_lsb[1]),
         ];
-        for (name, permitted, bits, largest) in kinds {
+        for (name, permitted, bits, layers, largest) in kinds {
             let Some(largest) = largest else { continue };
+            let layers = layers
+                .map_or_else(String::new, |most| format!(", at most {most:.4} behind the layers of a pixel"));
             t += &format!(
-                "{name}: tolerance {permitted:.4} LSB of {bits} bits, largest error where pixels agree {largest:.4}\n"
+                "{name}: tolerance {permitted:.4} LSB of {bits} bits{layers}, largest error where pixels agree {largest:.4}\n"
             );
         }
         for Count { cause, pixels, .. } in self.causes.iter().filter(|count| count.pixels > 0) {

@@ -20,7 +20,10 @@ pub struct Tolerance {
     pub z_bits: u32,
     /// Bits of a colour.
     pub color_bits: u32,
-    /// The user gave the tolerance of colours: it holds at each pixel.
+    /// Of a blended frame whose tolerance nobody gave: the largest of a pixel's colour, LSB.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub layers: Option<f64>,
+    /// The user gave the tolerance of colours, or another format than the machine's: it holds at each pixel.
     #[serde(skip)]
     pub is_asked_for: bool,
 }
@@ -46,9 +49,10 @@ impl Tolerance {
             (asked.lsb.unwrap_or(bound), 1.0 / ((1u64 << bits) - 1) as f64, bits)
         };
         let (z, z_lsb, z_bits) = of(z, &machine.channels()[0]);
-        let is_asked_for = color.bits.is_some() || color.lsb.is_some();
-        let (color, color_lsb, color_bits) = of(color, &machine.channels()[1]);
-        Tolerance { z, color, z_lsb, color_lsb, z_bits, color_bits, is_asked_for }
+        let channel = &machine.channels()[1];
+        let is_asked_for = color.lsb.is_some() || color.bits.is_some_and(|bits| bits != channel.bits);
+        let (color, color_lsb, color_bits) = of(color, channel);
+        Tolerance { z, color, z_lsb, color_lsb, z_bits, color_bits, layers: None, is_asked_for }
     }
 
     /// The same formats; every value must be equal.
