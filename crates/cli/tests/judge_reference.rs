@@ -81,3 +81,68 @@ fn bits_of_the_machine_leave_its_bounds() {
         assert_eq!(String::from_utf8(text).unwrap().contains("behind the layers of a pixel"), is_glass);
     }
 }
+
+/// Slivers of 1 to 2 pixels, whose colour runs across them.
+fn slivers() -> String {
+    let sliver = |n: u32| {
+        let x = 1.03 + 1.9 * f64::from(n) + 0.01 * f64::from(n * n % 7);
+        let (right, low) = (x + 1.37, x + 0.31);
+        let ends = format!("P 4  {x} 0 .5 0 0 0 0  {right} 0 .5 1 1 1 0");
+        format!("{ends}  {} 480 .5 1 1 1 0  {low} 480 .5 0 0 0 0\n", low + 1.37)
+    };
+    "size 64 480\n".to_owned() + &(0..30).map(sliver).collect::<String>()
+}
+
+/// A light whose map hides the left half of the screen, over a surface of running colours.
+const SHADE: &str = "size 64 64
+shadow 4 0.001 0.3   0.0625 0 0 0   0 0.0625 0 0   0 0 1 0   0 0 0 1
+L  0 0 0.25   2 0 0.25   0 4 0.25
+L  2 0 0.25   2 4 0.25   0 4 0.25
+T 0 0 .5 1 0.9 0.1 0  64 0 .5 0 0.5 1 0  0 64 .5 0.3 1 0.7 0
+T 64 64 .5 0.2 0.4 0.6 0  64 0 .5 0 0.5 1 0  0 64 .5 0.3 1 0.7 0
+";
+
+/// A polygon in a steep plane: its corners lie in it before they are snapped.
+fn steep() -> String {
+    let corners = [(3.137, 4.259), (50.713, 9.441), (60.377, 33.519), (33.9, 58.3), (5.3, 30.77)];
+    let corner = |(x, y): (f64, f64)| {
+        let (z, c) = (0.1 + x * 0.0077 + y * 0.0061, 0.05 + x * 0.006 + y * 0.007);
+        format!("  {x} {y} {z} {c} {} {} 0", 1.0 - c, 0.5 * c)
+    };
+    "size 64 64\nP 5".to_owned() + &corners.map(corner).concat() + "\n"
+}
+
+/// What `render` takes for right passes, and the tolerance is the bound that `render` proves of the machine.
+#[test]
+fn tolerance_has_dither_lights_and_polygons() {
+    let (slivers, steep) = (slivers(), steep());
+    let cases: [(&str, &[&str], f64); 6] = [
+        (TWO, &["--set", "dither.bits=4"], 17.0),
+        (SHADE, &["--adapt"], 1.2),
+        (&slivers, &["--machine", "bilinear"], 1.0),
+        (&steep, &["--machine", "polygon"], 0.8),
+        (&steep, &["--machine", "bilinear"], 0.5),
+        (SHADE, &["--adapt", "--set", "dither.bits=4"], 17.0),
+    ];
+    for (text, options, least) in cases {
+        let folder = folder(text);
+        raster(folder.path(), options, "m");
+        let words = [&["render", "in.tri", "--json", "--out", "r"], options].concat();
+        let rendered = edgewalk(folder.path(), &words).output().unwrap().stdout;
+        let rendered: Value = serde_json::from_slice(&rendered).unwrap();
+        // Coverage by slope edges is golden's but for single pixels, which are no matter of the tolerance.
+        std::fs::remove_file(folder.path().join("m/coverage.npy")).unwrap();
+        std::fs::remove_file(folder.path().join("m/id.npy")).unwrap();
+        let (code, report, error) = judged(folder.path(), &[&["m"], options].concat());
+        let causes = report["causes"].as_array().unwrap().iter();
+        let beyond = causes.filter(|count| ["depth", "color"].contains(&count["cause"].as_str().unwrap()));
+        let beyond: u64 = beyond.map(|count| count["pixels"].as_u64().unwrap()).sum();
+        assert_eq!(beyond, 0, "{options:?}: {error}{report}");
+        assert!(code == Some(0) || options.contains(&"bilinear"), "{options:?}: {report}");
+        let of = |value: &Value| value.as_f64().unwrap();
+        let tolerance = of(&report["tolerance"]["color"]);
+        assert_eq!(tolerance, of(&rendered["comparison"]["color_bound"]), "{options:?}");
+        assert_eq!(of(&report["tolerance"]["z"]), of(&rendered["comparison"]["z_bound"]), "{options:?}");
+        assert!(tolerance > least, "{options:?}: {tolerance}");
+    }
+}

@@ -94,7 +94,7 @@ fn judge(
         permitted.1
     );
     let layers = Layers::of(machine, frame, None).filter(|_| !tolerance.is_asked_for);
-    let largest = layers.as_ref().map(|layers| layers.bound.iter().copied().fold(0.0, f64::max));
+    let largest = layers.as_ref().map(|of| of.bound.iter().copied().fold(0.0, f64::max) + tolerance.step);
     let mut judgement = Judgement::new(reference, outside, Tolerance { layers: largest, ..*tolerance });
     ensure!(
         !judgement.compared.is_empty(),
@@ -159,7 +159,8 @@ impl Judge<'_> {
 
     /// Largest permitted errors of depth and colour at a pixel, LSB.
     fn permitted(&self, pixel: usize) -> [f64; 2] {
-        [self.tolerance.z, self.layers.as_ref().map_or(self.tolerance.color, |layers| layers.bound[pixel])]
+        let Tolerance { z, color, step, .. } = *self.tolerance;
+        [z, self.layers.as_ref().map_or(color, |layers| layers.bound[pixel] + step)]
     }
 
     fn within(&self, pixel: usize, errors: [f64; 2]) -> bool {

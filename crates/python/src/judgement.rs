@@ -141,9 +141,10 @@ pub fn judge(
     }
     let own = self::rule(None, machine.fill)?;
     let rule = self::rule(rule, machine.fill)?;
-    let tolerance = Tolerance::of(&machine, asked("depth_lsb", depth_lsb)?, asked("color_lsb", color_lsb)?);
+    let (depth, color) = (asked("depth_lsb", depth_lsb)?, asked("color_lsb", color_lsb)?);
     let judgement = run(py, || {
         let frame = in_triangles(frame, &machine)?;
+        let tolerance = Tolerance::of(&machine, &frame, depth, color);
         if is_machine {
             ensure!(
                 rule == own,

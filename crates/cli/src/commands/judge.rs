@@ -138,6 +138,7 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
     );
     let tolerance = Tolerance::of(
         &machine,
+        &frame,
         Asked { bits: args.depth_bits, lsb: args.depth_lsb },
         Asked { bits: args.color_bits, lsb: args.color_lsb },
     );
