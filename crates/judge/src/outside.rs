@@ -28,11 +28,11 @@ use anyhow::{Result, ensure};
 use edgewalk_golden::Fill;
 use edgewalk_host::raster::{Raster, from_golden, golden_fill};
 use edgewalk_machine::Plan;
-use edgewalk_scene::{Blending, Frame};
+use edgewalk_scene::{Blending, Frame, Primitive};
 use std::cmp::Ordering;
 use std::collections::BTreeMap;
 
-/// Judges `outside` beside golden's picture of `frame`, which has triangles only, by this rule of coverage.
+/// Judges `outside` beside golden's picture of `frame`, the input's with its polygons whole, by this rule of coverage.
 ///
 /// # Errors
 /// The pictures have different sizes, no array is in both, or golden cannot draw the frame by the rule.
@@ -61,7 +61,8 @@ pub fn beside_golden(
     Ok(judgement.turned(rule))
 }
 
-/// Judges `outside` beside the picture `drawn` that the machine makes of `frame`, which has triangles only: every value must be equal.
+/// Judges `outside` beside the picture `drawn` that the machine makes of `frame`, the input's with its polygons whole: every value must
+/// be equal.
 ///
 /// # Errors
 /// The pictures have different sizes, or no array is in both.
@@ -106,7 +107,7 @@ fn judge(
         },
         if reference.lit.is_some() { ", or lit" } else { "" }
     );
-    let judge = Judge { frame, reference, outside, tolerance, layers };
+    let judge = Judge { frame, primitives: frame.primitives(), reference, outside, tolerance, layers };
     let pixels = reference.coverage.len();
     let differ: Vec<usize> = (0..pixels).filter(|pixel| !judge.agrees(*pixel)).collect();
     let over = match fill {
@@ -128,6 +129,8 @@ fn judge(
 /// Two pictures of a frame.
 struct Judge<'a> {
     frame: &'a Frame,
+    /// By their places in the input.
+    primitives: Vec<Primitive<'a>>,
     reference: &'a Raster,
     outside: &'a Picture,
     tolerance: &'a Tolerance,
@@ -225,6 +228,7 @@ impl Judge<'_> {
             cause,
             triangle: reference.id[pixel],
             shown,
+            kinds: [reference.id[pixel], shown.unwrap_or(-1)].map(|id| self.kind(id)),
             z: self.outside.z.as_ref().map(|own| [reference.z[pixel], own[pixel]]),
             rgb: self.outside.rgb.as_ref().map(|own| [reference.rgb[pixel], own[pixel]]),
             coverage: self.outside.coverage.as_ref().map(|own| [reference.coverage[pixel], own[pixel]]),
@@ -243,20 +247,25 @@ impl Judge<'_> {
         }
     }
 
-    /// The half-plane that decides whether the pixel of a finding is covered.
+    /// What stands in this place of the input.
+    fn kind(&self, id: i32) -> &'static str {
+        let primitive = usize::try_from(id).ok().and_then(|place| self.primitives.get(place));
+        primitive.map_or("triangle", |primitive| edge::kind(*primitive))
+    }
+
+    /// The edge that decides whether the pixel of a finding is covered.
     fn edge(&self, fill: Fill, found: &Finding) -> Option<Edge> {
         let Fill::Exact { subpixel_bits } = fill else { return None };
-        let triangles = &self.frame.triangles;
-        let of = |id: i32| usize::try_from(id).ok().filter(|place| *place < triangles.len());
-        let of_triangle =
-            |place: usize| Edge::nearest(place, &triangles[place], subpixel_bits, (found.x, found.y));
+        let of = |place: usize| {
+            Edge::nearest(place, *self.primitives.get(place)?, subpixel_bits, (found.x, found.y))
+        };
         match found.cause {
-            Cause::Missing => of_triangle(of(found.triangle)?),
-            Cause::Extra => match found.shown.and_then(of) {
-                Some(place) => of_triangle(place),
-                // Of the triangles that do not cover the pixel the one that comes nearest to it.
-                None => (0..triangles.len())
-                    .filter_map(of_triangle)
+            Cause::Missing => of(usize::try_from(found.triangle).ok()?),
+            Cause::Extra => match found.shown.and_then(|id| usize::try_from(id).ok()) {
+                Some(place) => of(place),
+                // Of what does not cover the pixel the one that comes nearest to it.
+                None => (0..self.primitives.len())
+                    .filter_map(of)
                     .filter(|edge| edge.distance <= 0.0)
                     .max_by(|a, b| a.distance.total_cmp(&b.distance)),
             },
