@@ -217,3 +217,49 @@ fn findings_name_polygons_and_their_edges() {
         assert!(text.contains(part), "{part}: {text}");
     }
 }
+
+/// Two machines that draw the same things show the same things, whatever parts they draw them as.
+#[test]
+fn compared_machines_show_places_in_the_input() {
+    let depth =
+        std::fs::read_to_string(format!("{}/../../docs/scenes/depth.tri", env!("CARGO_MANIFEST_DIR")));
+    // It reaches beyond a guard band of 8 bits, and is cut there.
+    let wide = "size 160 120
+T -300 -300 .5 1 0 0 0  500 -10 .5 0 1 0 0  -10 600 .5 0 0 1 0
+T 10 10 .2 1 0 0 0  100 10 .2 1 0 0 0  10 100 .2 1 0 0 0
+";
+    // Two squares: POLY draws a face, another machine two triangles.
+    let faces = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 2 0 0\nv 2 1 0\nf 1 2 3 4\nf 2 5 6 3\n";
+    let folder = folder(SQUARE);
+    for (name, text) in [("depth.tri", &depth.unwrap()[..]), ("wide.tri", wide), ("faces.obj", faces)] {
+        std::fs::write(folder.path().join(name), text).unwrap();
+    }
+    let screen = ["--set", "screen.width=160", "--set", "screen.height=120"];
+    let cases: [(&str, &str, &[&str]); 4] = [
+        ("in.tri", "polygon", &[]),
+        ("depth.tri", "polygon", &[]),
+        ("wide.tri", "default,screen.guard_bits=8", &[]),
+        ("faces.obj", "polygon", &screen),
+    ];
+    for (input, other, options) in cases {
+        let words =
+            [&["compare", "default", other, input, "--shading", "constant", "--json"], options].concat();
+        let words: Vec<&str> = match input.ends_with(".tri") {
+            true => words.into_iter().filter(|word| !["--shading", "constant"].contains(word)).collect(),
+            false => words,
+        };
+        let output = edgewalk(folder.path(), &words).output().unwrap();
+        assert_eq!(ended(&output).0, Some(0), "{input}: {}", ended(&output).1);
+        let report: Value = serde_json::from_slice(&output.stdout).unwrap();
+        let pixels = &report["pixels"];
+        assert_eq!((&pixels["triangle"], &pixels["coverage"]), (&0.into(), &0.into()), "{input}: {pixels}");
+    }
+    // Another thing that shows is counted.
+    let near = "size 32 32\nT 1 1 .5 1 0 0 0  31 1 .5 1 0 0 0  1 31 .5 1 0 0 0
+P 3 1 1 .4999 0 1 0 0  31 1 .4999 0 1 0 0  1 31 .4999 0 1 0 0\n";
+    std::fs::write(folder.path().join("near.tri"), near).unwrap();
+    let words = ["compare", "default", "polygon,formats.z_bits=8", "near.tri", "--json"];
+    let report: Value =
+        serde_json::from_slice(&edgewalk(folder.path(), &words).output().unwrap().stdout).unwrap();
+    assert!(report["pixels"]["triangle"].as_u64().unwrap() > 300, "{}", report["pixels"]);
+}
