@@ -263,3 +263,26 @@ P 3 1 1 .4999 0 1 0 0  31 1 .4999 0 1 0 0  1 31 .4999 0 1 0 0\n";
         serde_json::from_slice(&edgewalk(folder.path(), &words).output().unwrap().stdout).unwrap();
     assert!(report["pixels"]["triangle"].as_u64().unwrap() > 300, "{}", report["pixels"]);
 }
+
+/// Lines have a rule of their own, which no rule of edges turns round.
+#[test]
+fn rules_of_edges_refuse_lines() {
+    let triangle = "size 48 48\nT 4 4 .3 0 1 0 0  20 5 .3 0 1 0 0  5 28 .3 0 1 0 0\n";
+    let with_line = triangle.to_owned() + "S 24 2 .5 1 0 0 0  40 46 .5 0 0 1 0\n";
+    for (text, code) in [(triangle, 0), (&with_line, 2)] {
+        let folder = folder(text);
+        raster(folder.path(), &["--adapt"], "m");
+        for rule in ["top-right", "bottom-left", "bottom-right"] {
+            let (found, _, error) = judged(folder.path(), &["m", "--adapt", "--rule", rule]);
+            assert_eq!(found, Some(code), "{rule}: {error}");
+            if code == 2 {
+                for part in
+                    [rule, "the frame has lines; permitted with this rule: triangles", "judge it by top-left"]
+                {
+                    assert!(error.contains(part), "{error}");
+                }
+            }
+        }
+        assert_eq!(judged(folder.path(), &["m", "--adapt", "--rule", "top-left"]).0, Some(0));
+    }
+}

@@ -24,7 +24,7 @@ pub use rule::Rule;
 pub use tolerance::{Asked, Tolerance};
 
 use crate::compare::{Layers, Over, all_over};
-use anyhow::{Result, ensure};
+use anyhow::{Result, bail, ensure};
 use edgewalk_golden::Fill;
 use edgewalk_host::raster::{Raster, from_golden, golden_fill};
 use edgewalk_machine::Plan;
@@ -51,11 +51,17 @@ pub fn beside_golden(
     if rule.is_plain() {
         return judge(machine, frame, &golden(frame), outside, tolerance, fill);
     }
-    ensure!(
-        frame.shadows.is_empty() && frame.shading.is_none(),
-        "{rule} is a rule for frames whose colours are linear between the vertices; found: a frame with shadows or with normals; judge it \
-         by top-left or textbook"
-    );
+    let refused = [
+        ("shadows", !frame.shadows.is_empty()),
+        ("normals", frame.shading.is_some()),
+        ("lines", !frame.lines.is_empty()),
+    ];
+    if let Some((found, _)) = refused.into_iter().find(|(_, there)| *there) {
+        bail!(
+            "rule {rule}: the frame has {found}; permitted with this rule: triangles and polygons without shadows and normals; judge it \
+             by top-left or textbook"
+        );
+    }
     let frame = rule.mirrored(frame, machine.subpixel_bits);
     let judgement = judge(machine, &frame, &golden(&frame), &rule.turned(outside.clone()), tolerance, fill)?;
     Ok(judgement.turned(rule))
