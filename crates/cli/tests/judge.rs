@@ -365,7 +365,10 @@ fn arrays_that_cannot_be_are_refused() {
         (&["type"], "permitted: float32, float64, or unsigned integers in LSB"),
         (&["cut"], "its values end early"),
         (&["int"], "permitted: bool, or integers of 8 to 64 bits"),
-        (&["many"], "256 is out of range"),
+        (
+            &["many"],
+            "lit.npy: 256 in pixel (0, 0); permitted: 0 for nothing written, 1 for in shadow, 2 for lit; write them",
+        ),
         (&["short"], "shorter than a header"),
         (&["header"], "permitted: 65536"),
         (&["nonsense"], "z.npy"),

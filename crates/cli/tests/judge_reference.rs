@@ -267,7 +267,7 @@ P 3 1 1 .4999 0 1 0 0  31 1 .4999 0 1 0 0  1 31 .4999 0 1 0 0\n";
 /// Lines have a rule of their own, which no rule of edges turns round.
 #[test]
 fn rules_of_edges_refuse_lines() {
-    let triangle = "size 48 48\nT 4 4 .3 0 1 0 0  20 5 .3 0 1 0 0  5 28 .3 0 1 0 0\n";
+    let triangle = "size 48 48\nT 4.1 4.3 .3 0 1 0 0  20.2 5.4 .3 0 1 0 0  5.7 28.8 .3 0 1 0 0\n";
     let with_line = triangle.to_owned() + "S 24 2 .5 1 0 0 0  40 46 .5 0 0 1 0\n";
     for (text, code) in [(triangle, 0), (&with_line, 2)] {
         let folder = folder(text);
@@ -285,4 +285,70 @@ fn rules_of_edges_refuse_lines() {
         }
         assert_eq!(judged(folder.path(), &["m", "--adapt", "--rule", "top-left"]).0, Some(0));
     }
+}
+
+/// An array of numpy with 32 x 32 values, or colours.
+fn npy(path: &Path, descr: &str, each: usize, value: &[u8]) {
+    let colors = if each == 3 { ", 3" } else { "" };
+    let header = format!("{{'descr': '{descr}', 'fortran_order': False, 'shape': (32, 32{colors}), }}");
+    let padded = format!("{header:<117}\n");
+    let mut file = b"\x93NUMPY\x01\x00".to_vec();
+    file.extend((padded.len() as u16).to_le_bytes());
+    file.extend(padded.as_bytes());
+    file.extend(value.repeat(32 * 32 * each));
+    std::fs::write(path, file).unwrap();
+}
+
+/// Values that no picture has are refused with their pixel, and with what is permitted.
+#[test]
+fn values_out_of_range_are_refused() {
+    let folder = folder(TWO);
+    let float = |value: f64| value.to_le_bytes().to_vec();
+    let floats =
+        "permitted: floats in 0 to 1, or unsigned integers in LSB; divide by the value that stands for 1";
+    let cases: [(&str, &str, Vec<u8>, [&str; 2]); 10] = [
+        ("z", "<f8", float(5.0), ["5 in pixel (0, 0)", floats]),
+        ("z", "<f8", float(-3.0), ["-3 in pixel (0, 0)", floats]),
+        ("z", "<f8", float(f64::INFINITY), ["inf in pixel (0, 0)", floats]),
+        ("z", "<f8", float(f64::NAN), ["NaN in pixel (0, 0)", floats]),
+        ("rgb", "<f4", 255f32.to_le_bytes().to_vec(), ["255 in pixel (0, 0)", floats]),
+        (
+            "id",
+            "<u4",
+            vec![0xff; 4],
+            ["4294967295 in pixel (0, 0)", "permitted: -1 for none, or a place in the input"],
+        ),
+        (
+            "id",
+            "<i4",
+            (-2i32).to_le_bytes().to_vec(),
+            ["-2 in pixel", "0 to 2147483647; write them as int32"],
+        ),
+        ("id", "<u8", vec![0xff; 8], ["18446744073709551615 in pixel", "permitted: -1 for none"]),
+        (
+            "coverage",
+            "<i4",
+            vec![0xff; 4],
+            ["-1 in pixel (0, 0)", "permitted: 0 to 4294967295, the number of"],
+        ),
+        (
+            "lit",
+            "|u1",
+            vec![3],
+            ["3 in pixel (0, 0)", "permitted: 0 for nothing written, 1 for in shadow, 2 for lit"],
+        ),
+    ];
+    for (name, descr, value, parts) in cases {
+        let file = folder.path().join(format!("{name}.npy"));
+        npy(&file, descr, if name == "rgb" { 3 } else { 1 }, &value);
+        let (code, _, error) = judged(folder.path(), &[&format!("{name}.npy")]);
+        assert_eq!(code, Some(2), "{name} {value:?}: {error}");
+        for part in parts {
+            assert!(error.contains(part), "{name} {value:?}: {error}");
+        }
+        std::fs::remove_file(file).unwrap();
+    }
+    // Single precision may be a little outside.
+    npy(&folder.path().join("z.npy"), "<f4", 1, &1.000_001f32.to_le_bytes());
+    assert_eq!(judged(folder.path(), &["z.npy"]).0, Some(1));
 }

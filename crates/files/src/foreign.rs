@@ -2,6 +2,7 @@
 
 use anyhow::{Context as _, Result, anyhow, bail, ensure};
 use edgewalk_judge::outside::Picture;
+use edgewalk_judge::outside::picture::{COVERAGE, ID, LIT, Permitted, in_unit};
 use npyz::{Deserialize, NpyFile, Order};
 use std::fs::File;
 use std::io::{BufReader, Read, Seek as _};
@@ -61,12 +62,12 @@ fn add(picture: &mut Picture, path: &Path, [z_bits, color_bits]: [u32; 2]) -> Re
     let colors = name == "rgb.npy";
     let array = Array::open(path, size, colors).with_context(shown)?;
     match name {
-        "coverage.npy" => picture.coverage = Some(whole(array, u32::try_from).with_context(shown)?),
-        "id.npy" => picture.id = Some(whole(array, i32::try_from).with_context(shown)?),
-        "lit.npy" => picture.lit = Some(whole(array, u8::try_from).with_context(shown)?),
-        "z.npy" => picture.z = Some(unorm(array, z_bits).with_context(shown)?),
+        "coverage.npy" => picture.coverage = Some(whole(array, &COVERAGE, size.0).with_context(shown)?),
+        "id.npy" => picture.id = Some(whole(array, &ID, size.0).with_context(shown)?),
+        "lit.npy" => picture.lit = Some(whole(array, &LIT, size.0).with_context(shown)?),
+        "z.npy" => picture.z = Some(unorm(array, z_bits, size.0, 1).with_context(shown)?),
         _ => {
-            let values = unorm(array, color_bits).with_context(shown)?;
+            let values = unorm(array, color_bits, size.0, 3).with_context(shown)?;
             picture.rgb = Some(values.chunks_exact(3).map(|c| [c[0], c[1], c[2]]).collect());
         }
     }
@@ -132,27 +133,27 @@ macro_rules! by_type {
     };
 }
 
-/// Whole numbers.
-fn whole<T, E>(array: Array, of: fn(i64) -> Result<T, E>) -> Result<Vec<T>> {
-    fn all<T, E>(values: impl Iterator<Item = i64>, of: fn(i64) -> Result<T, E>) -> Result<Vec<T>> {
-        values.map(|value| of(value).map_err(|_| anyhow!("{value} is out of range"))).collect()
+/// Whole numbers of a picture with so many columns.
+fn whole<T: TryFrom<i128>>(array: Array, of: &Permitted, columns: u32) -> Result<Vec<T>> {
+    fn all<T: TryFrom<i128>, V: Into<i128>>(values: Vec<V>, of: &Permitted, columns: u32) -> Result<Vec<T>> {
+        of.all(values.into_iter().map(Into::into), columns)
     }
     by_type!(array,
-        bool => |v| all(v.into_iter().map(i64::from), of),
-        u8 => |v| all(v.into_iter().map(i64::from), of),
-        i8 => |v| all(v.into_iter().map(i64::from), of),
-        u16 => |v| all(v.into_iter().map(i64::from), of),
-        i16 => |v| all(v.into_iter().map(i64::from), of),
-        u32 => |v| all(v.into_iter().map(i64::from), of),
-        i32 => |v| all(v.into_iter().map(i64::from), of),
-        u64 => |v| all(v.into_iter().map(|v| i64::try_from(v).unwrap_or(i64::MAX)), of),
-        i64 => |v| all(v.into_iter(), of),
+        bool => |v| all(v, of, columns),
+        u8 => |v| all(v, of, columns),
+        i8 => |v| all(v, of, columns),
+        u16 => |v| all(v, of, columns),
+        i16 => |v| all(v, of, columns),
+        u32 => |v| all(v, of, columns),
+        i32 => |v| all(v, of, columns),
+        u64 => |v| all(v, of, columns),
+        i64 => |v| all(v, of, columns),
         else "bool, or integers of 8 to 64 bits"
     );
 }
 
-/// Floats in 0 to 1, or unsigned integers in LSB of this many bits.
-fn unorm(array: Array, bits: u32) -> Result<Vec<f64>> {
+/// Floats in 0 to 1, or unsigned integers in LSB of this many bits, of a picture with so many columns and `each` values a pixel.
+fn unorm(array: Array, bits: u32, columns: u32, each: usize) -> Result<Vec<f64>> {
     let one = (1u64 << bits) - 1;
     let lsb = |value: u64| {
         ensure!(
@@ -162,8 +163,8 @@ fn unorm(array: Array, bits: u32) -> Result<Vec<f64>> {
         Ok(value as f64 / one as f64)
     };
     by_type!(array,
-        f64 => Ok,
-        f32 => |v| Ok(v.into_iter().map(f64::from).collect()),
+        f64 => |v| in_unit(v, columns, each),
+        f32 => |v| in_unit(v.into_iter().map(f64::from).collect(), columns, each),
         u8 => |v| v.into_iter().map(|v| lsb(v.into())).collect(),
         u16 => |v| v.into_iter().map(|v| lsb(v.into())).collect(),
         u32 => |v| v.into_iter().map(|v| lsb(v.into())).collect(),

@@ -9,7 +9,7 @@
 //! ```
 //! A pixel has the cause that is found first, in the order of [`Cause::ALL`].
 
-mod picture;
+pub mod picture;
 mod tolerance;
 mod rule;
 mod edge;

@@ -1,6 +1,7 @@
 //! Arrays of numpy in and out: row 0 on top, C order.
 
 use crate::error::Error;
+use edgewalk_judge::outside::picture::{Permitted, in_unit};
 use numpy::{Element, PyArrayDyn, PyArrayMethods, PyReadonlyArrayDyn, PyUntypedArrayMethods};
 use pyo3::prelude::*;
 
@@ -62,10 +63,11 @@ pub fn floats(name: &'static str, value: &Bound<'_, PyAny>, sides: &[usize]) -> 
 
 /// Floats in 0 to 1, or unsigned integers in LSB of this many bits.
 pub fn unorm(name: &'static str, value: &Bound<'_, PyAny>, shape: &[usize], bits: u32) -> PyResult<Vec<f64>> {
+    let (columns, each) = (shape[1] as u32, shape.get(2).copied().unwrap_or(1));
     let given = Given::new(name, value)?;
     let one = (1u64 << bits) - 1;
     match &*given.kind {
-        "f" => given.values("float64", shape),
+        "f" => in_unit(given.values("float64", shape)?, columns, each).map_err(|error| said(name, &error)),
         "u" => {
             let values: Vec<u64> = given.values("uint64", shape)?;
             if let Some(value) = values.iter().find(|value| **value > one) {
@@ -79,19 +81,23 @@ pub fn unorm(name: &'static str, value: &Bound<'_, PyAny>, shape: &[usize], bits
     }
 }
 
-/// Whole numbers that fit this type.
-pub fn whole<T: TryFrom<i64>>(
+/// Whole numbers as the array of a picture may have them.
+pub fn whole<T: TryFrom<i128>>(
     name: &'static str,
     value: &Bound<'_, PyAny>,
     shape: &[usize],
+    permitted: &Permitted,
 ) -> PyResult<Vec<T>> {
     let given = Given::new(name, value)?;
-    if !["b", "i", "u"].contains(&&*given.kind) {
-        return Err(given.of_another_type("bool, or integers"));
-    }
-    let values: Vec<i64> = given.values("int64", shape)?;
-    let fits = |value: i64| {
-        T::try_from(value).map_err(|_| Error::new_err(format!("{name}: {value} is out of range")))
+    let columns = shape[1] as u32;
+    let checked = match &*given.kind {
+        "b" | "i" => permitted.all(given.values::<i64>("int64", shape)?.into_iter().map(i128::from), columns),
+        "u" => permitted.all(given.values::<u64>("uint64", shape)?.into_iter().map(i128::from), columns),
+        _ => return Err(given.of_another_type("bool, or integers")),
     };
-    values.into_iter().map(fits).collect()
+    checked.map_err(|error| said(name, &error))
+}
+
+fn said(name: &str, error: &anyhow::Error) -> PyErr {
+    Error::new_err(format!("{name}: {error}"))
 }

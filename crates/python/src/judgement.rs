@@ -7,6 +7,7 @@ use crate::source;
 use anyhow::ensure;
 use edgewalk_host::draw;
 use edgewalk_judge::Verdict;
+use edgewalk_judge::outside::picture::{COVERAGE, ID, LIT};
 use edgewalk_judge::outside::{self, Asked, Cause, Rule, Tolerance};
 use edgewalk_machine::Fill;
 use edgewalk_model::Waits;
@@ -128,11 +129,11 @@ pub fn judge(
     let picture = outside::Picture {
         width: machine.width,
         height: machine.height,
-        coverage: coverage.map(|values| whole("coverage", values, &shape)).transpose()?,
-        id: id.map(|values| whole("id", values, &shape)).transpose()?,
+        coverage: coverage.map(|values| whole("coverage", values, &shape, &COVERAGE)).transpose()?,
+        id: id.map(|values| whole("id", values, &shape, &ID)).transpose()?,
         z: z.map(|values| unorm("z", values, &shape, machine.z.bits)).transpose()?,
         rgb: rgb.map(colors).transpose()?,
-        lit: lit.map(|values| whole("lit", values, &shape)).transpose()?,
+        lit: lit.map(|values| whole("lit", values, &shape, &LIT)).transpose()?,
     };
     if [z, rgb, coverage, id, lit].iter().all(Option::is_none) {
         return Err(Error::new_err("no array; permitted: one or more of z, rgb, coverage, id, lit"));
