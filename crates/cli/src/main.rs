@@ -22,6 +22,7 @@ mod fast_phong;
 mod input;
 mod jobs;
 mod junit;
+mod kept;
 mod lamps;
 mod machine_args;
 mod number;

@@ -72,6 +72,7 @@ mod t_joints;
 mod test_run;
 mod texels;
 mod reliefs;
+mod kept;
 mod lamps;
 mod threads;
 mod tour;

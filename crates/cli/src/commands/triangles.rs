@@ -4,7 +4,7 @@ use crate::document::line;
 use crate::input::Source;
 use crate::machine_args::MachineArgs;
 use crate::verdict::Verdict;
-use crate::{Talk, talk};
+use crate::{Talk, kept, talk};
 use anyhow::{Context as _, Result, ensure};
 use edgewalk_files::Staging;
 use edgewalk_scene::{InputKind, TJoint, triangle_file};
@@ -31,6 +31,9 @@ pub struct Args {
 /// Runs the command.
 pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
     let to_output = args.out == Path::new(InputKind::STANDARD_INPUT);
+    if !to_output {
+        kept::none_of("--out", &args.out, [args.source.input.as_str()])?;
+    }
     ensure!(
         !to_output || !talk.json,
         "--out - --json: the standard output takes one of the triangle file and the JSON document; give --out a file, or leave \
