@@ -28,7 +28,7 @@ use std::path::PathBuf;
 pub struct Args {
     #[command(flatten)]
     source: Source,
-    /// Draw this many triangles, polygons and lines of the input; all of them if left out
+    /// Draw this many triangles, polygons and lines, the first ones of the input; all of them if left out
     #[arg(long, value_name = "N", value_parser = whole::<u64>(1..))]
     triangles: Option<u64>,
     /// Stop after this many cycles

@@ -248,10 +248,10 @@ fn every_net_moves_as_often_as_in_icarus() {
             for energy in &pin.energies {
                 let cause = energy.cause.filter(|cause| Some(*cause) != clock);
                 let other = cause.map_or_else(|| moved.clone(), |cause| moves(&wave(of.nets[cause])));
-                let inputs: Vec<Vec<bool>> =
-                    of.nets[..of.cell.inputs].iter().map(|net| wave(*net)).collect();
+                let inputs: Vec<Vec<bool>> = of.nets[..of.cell.inputs].iter().map(|net| wave(*net)).collect();
                 let holds = |cycle: usize| {
-                    let state = inputs.iter().rev().fold(0, |state, wave| state << 1 | u32::from(wave[cycle]));
+                    let state =
+                        inputs.iter().rev().fold(0, |state, wave| state << 1 | u32::from(wave[cycle]));
                     energy.when.is_none_or(|when| when >> state & 1 == 1)
                 };
                 conditions += u64::from(energy.when.is_some());
