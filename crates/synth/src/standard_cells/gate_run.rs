@@ -49,7 +49,7 @@ struct Values {
 
 /// Where a flip-flop's value comes from.
 enum Source {
-    /// This bit of a block.
+    /// A bit of a block.
     Bit(usize),
     /// Bits of a block: the flip-flop is 1 where all bits of one of these states have these values.
     States(Vec<Vec<(usize, bool)>>),
