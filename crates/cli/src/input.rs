@@ -172,6 +172,14 @@ impl Source {
         }
     }
 
+    /// The frame as `raster` draws it: like `frame`, but a triangle file has its polygons, and nothing is cut at the guard band.
+    pub fn whole(&self, machine: &Plan) -> Result<Frame> {
+        match (self.is_triangle_file(), self.shading) {
+            (true, Shading::Wireframe) | (false, _) => self.frame(machine),
+            (true, _) => self.outlined(machine),
+        }
+    }
+
     /// Like `frame`, and of a scene with something transparent the order in which its triangles are drawn.
     pub fn sorted(&self, machine: &Plan) -> Result<(Frame, Option<Order>)> {
         if self.is_triangle_file() {

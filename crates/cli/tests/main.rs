@@ -25,6 +25,7 @@ mod guard_band;
 mod input_files;
 mod inputs;
 mod judge;
+mod judge_reference;
 mod layering;
 mod lens;
 mod light;

@@ -8,7 +8,7 @@
 use crate::polygon::{bends, on_port, tokens};
 use crate::vertices::guard_band;
 use edgewalk_machine::Plan;
-use edgewalk_scene::{Blending, Frame, Polygon, Scene, Surface, Triangle, Vertex, fits};
+use edgewalk_scene::{Blending, Frame, Polygon, Primitive, Scene, Surface, Triangle, Vertex, fits};
 use std::collections::HashMap;
 
 /// Colours at a corner that two triangles of a face share differ by no more, unless the face is shaded triangle by triangle: both
@@ -43,6 +43,21 @@ pub fn joined(frame: Frame, scene: &Scene, surface: &Surface, machine: &Plan) ->
 #[must_use]
 pub fn parts(polygon: &Polygon) -> usize {
     polygon.contours.iter().map(|contour| contour.len().saturating_sub(2)).sum()
+}
+
+/// Of each primitive of a surface's frame, joined or not, the number of the mesh's face that it is or is a part of.
+#[must_use]
+pub fn faces(frame: &Frame, scene: &Scene, surface: &Surface) -> Vec<i32> {
+    let (whole, mut first) = (scene.mesh.polygons(), 0);
+    let face = |primitive: Primitive| {
+        let face = whole[surface.triangles[first].face as usize] as i32; // a mesh has fewer
+        first += match primitive {
+            Primitive::Polygon(polygon) => parts(polygon),
+            Primitive::Triangle(_) | Primitive::Line(_) => 1,
+        };
+        face
+    };
+    frame.primitives().into_iter().map(face).collect()
 }
 
 /// The outline of these triangles, if POLY draws it as one polygon.

@@ -1,7 +1,7 @@
 //! What is to be drawn on one machine after another: read once, made into a frame for each screen.
 
 use crate::extra;
-use crate::faces::joined;
+use crate::faces::{faces, joined};
 use crate::needs::{self, Need};
 use crate::polygon::{is_for_poly, of_pieces, pieces};
 use crate::port::sent;
@@ -112,32 +112,48 @@ impl Input {
     /// # Errors
     /// A triangle file of another size, channels of the user's own without values for them.
     pub fn frame(&self, machine: &Plan) -> Result<Frame> {
-        let frame = match &self.what {
-            What::Triangles(frame) => fitting(&self.name, Frame::clone(frame), machine)?,
-            What::Scene(scene, shading) => {
-                extra::none(machine).with_context(|| self.name.clone())?;
-                let frame = on_screen(scene, *shading, machine);
-                if frame.blend == Blending::Off {
-                    frame
-                } else {
-                    return Ok(
-                        edgewalk_golden::sorted(in_triangles(frame, machine)?, machine.subpixel_bits).0
-                    );
-                }
+        Ok(self.placed(machine)?.0)
+    }
+
+    /// Like `frame`, with the place in the input of what each of its primitives is or is a part of: of a scene the face of the mesh.
+    /// It is the same on any machine.
+    ///
+    /// # Errors
+    /// Those of `frame`.
+    pub fn placed(&self, machine: &Plan) -> Result<(Frame, Vec<i32>)> {
+        let (scene, shading) = match &self.what {
+            What::Triangles(frame) => {
+                return placed(fitting(&self.name, Frame::clone(frame), machine)?, machine);
             }
+            What::Scene(scene, shading) => (scene, *shading),
         };
-        in_triangles(frame, machine)
+        extra::none(machine).with_context(|| self.name.clone())?;
+        let surface = scene.surface(machine.width, machine.height, guard_band(machine));
+        let frame = of_surface(scene, &surface, shading, machine);
+        let faces = faces(&frame, scene, &surface);
+        let (frame, places) = placed(frame, machine)?;
+        let places: Vec<i32> = places.into_iter().map(|place| faces[place as usize]).collect();
+        if frame.blend == Blending::Off {
+            return Ok((frame, places));
+        }
+        let (frame, order) = edgewalk_golden::sorted(frame, machine.subpixel_bits);
+        let places = order.order.iter().map(|place| places[*place]).collect();
+        Ok((frame, places))
     }
 }
 
 /// The scene on the machine's screen, clipped to its guard band, its faces as POLY draws them.
 fn on_screen(scene: &Scene, shading: Shaded, machine: &Plan) -> Frame {
     let surface = scene.surface(machine.width, machine.height, guard_band(machine));
+    of_surface(scene, &surface, shading, machine)
+}
+
+fn of_surface(scene: &Scene, surface: &Surface, shading: Shaded, machine: &Plan) -> Frame {
     match shading {
         Shaded::Corners(system) => {
-            joined(edgewalk_golden::frame(scene, &surface, system), scene, &surface, machine)
+            joined(edgewalk_golden::frame(scene, surface, system), scene, surface, machine)
         }
-        Shaded::Pixels(method) => scene.pixel_frame(&surface, method),
+        Shaded::Pixels(method) => scene.pixel_frame(surface, method),
     }
 }
 
@@ -169,10 +185,16 @@ pub fn fitting(name: &str, frame: Frame, machine: &Plan) -> Result<Frame> {
 /// # Errors
 /// A polygon that cannot be cut into triangles.
 pub fn in_triangles(frame: Frame, machine: &Plan) -> Result<Frame> {
+    Ok(placed(frame, machine)?.0)
+}
+
+/// Like `in_triangles`, with the place of what each primitive is or is a part of among those of the frame that was given.
+fn placed(frame: Frame, machine: &Plan) -> Result<(Frame, Vec<i32>)> {
     if is_for_poly(&frame, machine) {
         let mut host = frame.host;
         let pieces = pieces(&frame, machine, &mut host)?;
-        return Ok(of_pieces(frame, pieces, host));
+        let own = pieces.iter().map(|(place, _)| *place as i32).collect(); // a frame has fewer
+        return Ok((of_pieces(frame, pieces, host), own));
     }
     let (Triangulated { triangles, ids }, host) = sent(&frame, machine)?;
     // So many triangles are made of the primitives before this place; lines stay what they are.
@@ -183,8 +205,11 @@ pub fn in_triangles(frame: Frame, machine: &Plan) -> Result<Frame> {
     let before = |at: usize| made(at) + places.clone().take_while(|place| *place < at).count();
     let changes =
         frame.changes.iter().map(|change| Change { after: before(change.after), ..*change }).collect();
+    let mut own: Vec<i32> = ids.iter().copied().chain(places.clone().map(|place| place as i32)).collect();
+    // What comes first in the list is drawn first.
+    own.sort_unstable();
     let triangles = triangles.into_owned();
-    Ok(Frame { triangles, changes, polygons: Vec::new(), lines, host, ..frame })
+    Ok((Frame { triangles, changes, polygons: Vec::new(), lines, host, ..frame }, own))
 }
 
 /// How many triangles, polygons and lines a frame draws.

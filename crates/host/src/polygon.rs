@@ -171,7 +171,9 @@ pub fn on_port(
 pub struct Bend {
     /// The largest distance, LSB.
     pub defect: f64,
-    /// POLY may draw it: the defect is no more than snapping and rounding make of a plane, and no output leaves its range.
+    /// The defect is no more than snapping and rounding make of a plane.
+    pub is_flat: bool,
+    /// POLY may draw it: it is flat, and no output leaves its range.
     pub is_held: bool,
 }
 
@@ -179,7 +181,7 @@ pub struct Bend {
 #[must_use]
 pub fn bends(contours: &[Vec<PortVertex>], machine: &Plan) -> Vec<Bend> {
     let vertices: Vec<PortVertex> = contours.concat();
-    let flat = Bend { defect: 0.0, is_held: true };
+    let flat = Bend { defect: 0.0, is_flat: true, is_held: true };
     let Some(plane) = machine.far_apart(&vertices) else { return vec![flat; machine.channels().len()] };
     let mut bends = vec![flat; machine.channels().len()];
     for (i, channel) in machine.planes() {
@@ -227,16 +229,20 @@ fn bend(
         // An output is rounded: half an LSB less what steps may add.
         plane > low - 0.5 + steps && plane < high + 0.5 - steps || off(p) == 0
     });
-    Some(Bend { defect: most as f64 / one, is_held: 2 * most <= permitted && in_range })
+    let is_flat = 2 * most <= permitted;
+    Some(Bend { defect: most as f64 / one, is_flat, is_held: is_flat && in_range })
 }
 
-/// The largest defect of a frame's polygons, LSB, a channel of the machine, of each colour that of all three: pictures of planes and of values along the edges differ by
-/// no more. Of bilinear colours what edges beside their places make of them.
+/// How far pictures of planes may be from values along the edges of a frame's polygons, LSB, a channel of the machine, of each colour
+/// that of all three: the largest defect. Of bilinear colours what edges beside their places make of them.
+///
+/// A polygon of which the port takes triangles counts twice its defect: each of two planes may be off by it. One that no plane holds
+/// counts nothing there, as nothing bounds it.
 #[must_use]
 pub fn defects(frame: &Frame, machine: &Plan) -> Vec<f64> {
     let mut most = vec![0.0f64; machine.channels().len()];
     let (planes, bilinear) = (is_for_poly(frame, machine), machine.polygon.is_bilinear());
-    if !planes && !bilinear {
+    if frame.polygons.is_empty() && !bilinear {
         return most;
     }
     let beside = |most: &mut Vec<f64>, contours: &[Vec<Vertex>]| {
@@ -248,19 +254,26 @@ pub fn defects(frame: &Frame, machine: &Plan) -> Vec<f64> {
     for pass in frame.passes() {
         for place in pass.primitives.clone().take_while(|place| *place < primitives.len()) {
             let polygon = match primitives[place] {
-                Primitive::Polygon(polygon) if planes => polygon,
+                Primitive::Polygon(polygon) => polygon,
                 Primitive::Triangle(Triangle(vertices)) if frame.mode == ShadeMode::Gouraud => {
                     beside(&mut most, &[vertices.to_vec()]);
                     continue;
                 }
-                // One colour, or a line, whose colours are those of its one edge; or what the port takes as triangles.
+                // One colour, or a line, whose colours are those of its one edge.
                 _ => continue,
             };
             let inside = in_band(polygon, frame, guard_band(machine), &mut Host::default());
             let Ok(contours) = on_port(place, &inside, frame, &pass.state, machine) else { continue };
-            beside(&mut most, &inside.contours);
-            for (most, bend) in most.iter_mut().zip(bends(&contours, machine)) {
-                *most = most.max(bend.defect);
+            let bends = bends(&contours, machine);
+            let is_whole = planes && bends.iter().all(|bend| bend.is_held);
+            if is_whole {
+                beside(&mut most, &inside.contours);
+            }
+            for (most, bend) in most.iter_mut().zip(bends) {
+                let planes = if is_whole { 1.0 } else { 2.0 };
+                if bend.is_flat {
+                    *most = most.max(planes * bend.defect);
+                }
             }
         }
     }

@@ -29,6 +29,7 @@ use edgewalk_machine::Plan;
 use edgewalk_scene::{Blending, Frame};
 pub(crate) use layers::Layers;
 pub use layers::{Blended, Errors};
+pub(crate) use lit::gated;
 pub use lit::{Lights, Lit, Seen};
 use order::Orders;
 pub(crate) use order::{Over, all_over};

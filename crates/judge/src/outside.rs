@@ -24,18 +24,18 @@ pub use rule::Rule;
 pub use tolerance::{Asked, Tolerance};
 
 use crate::compare::{Layers, Over, all_over};
-use anyhow::{Result, ensure};
+use anyhow::{Result, bail, ensure};
 use edgewalk_golden::Fill;
 use edgewalk_host::raster::{Raster, from_golden, golden_fill};
 use edgewalk_machine::Plan;
-use edgewalk_scene::{Blending, Frame};
+use edgewalk_scene::{Blending, Frame, Primitive};
 use std::cmp::Ordering;
 use std::collections::BTreeMap;
 
-/// Judges `outside` beside golden's picture of `frame`, which has triangles only, by this rule of coverage.
+/// Judges `outside` beside golden's picture of `frame`, the input's with its polygons whole, by this rule of coverage.
 ///
 /// # Errors
-/// The pictures have different sizes, or golden cannot draw the frame by the rule.
+/// The pictures have different sizes, no array is in both, or golden cannot draw the frame by the rule.
 pub fn beside_golden(
     machine: &Plan,
     frame: &Frame,
@@ -51,20 +51,27 @@ pub fn beside_golden(
     if rule.is_plain() {
         return judge(machine, frame, &golden(frame), outside, tolerance, fill);
     }
-    ensure!(
-        frame.shadows.is_empty() && frame.shading.is_none(),
-        "{rule} is a rule for frames whose colours are linear between the vertices; found: a frame with shadows or with normals; judge it \
-         by top-left or textbook"
-    );
+    let refused = [
+        ("shadows", !frame.shadows.is_empty()),
+        ("normals", frame.shading.is_some()),
+        ("lines", !frame.lines.is_empty()),
+    ];
+    if let Some((found, _)) = refused.into_iter().find(|(_, there)| *there) {
+        bail!(
+            "rule {rule}: the frame has {found}; permitted with this rule: triangles and polygons without shadows and normals; judge it \
+             by top-left or textbook"
+        );
+    }
     let frame = rule.mirrored(frame, machine.subpixel_bits);
     let judgement = judge(machine, &frame, &golden(&frame), &rule.turned(outside.clone()), tolerance, fill)?;
     Ok(judgement.turned(rule))
 }
 
-/// Judges `outside` beside the picture `drawn` that the machine makes of `frame`, which has triangles only: every value must be equal.
+/// Judges `outside` beside the picture `drawn` that the machine makes of `frame`, the input's with its polygons whole: every value must
+/// be equal.
 ///
 /// # Errors
-/// The pictures have different sizes.
+/// The pictures have different sizes, or no array is in both.
 pub fn beside_machine(
     machine: &Plan,
     frame: &Frame,
@@ -93,14 +100,26 @@ fn judge(
         permitted.0,
         permitted.1
     );
-    let judge = Judge { frame, reference, outside, tolerance, layers: Layers::of(machine, frame, None) };
+    let layers = Layers::of(machine, frame, None).filter(|_| !tolerance.is_asked_for);
+    let largest = layers.as_ref().map(|of| of.bound.iter().copied().fold(0.0, f64::max) + tolerance.step);
+    let mut judgement = Judgement::new(reference, outside, Tolerance { layers: largest, ..*tolerance });
+    ensure!(
+        !judgement.compared.is_empty(),
+        "no array can be compared: {}; permitted: one or more of coverage, id, z and rgb{}; add one of these to the picture",
+        if outside.lit.is_some() {
+            "lit is the only one, and the picture of a machine without SHADOW has none"
+        } else {
+            "the picture has none"
+        },
+        if reference.lit.is_some() { ", or lit" } else { "" }
+    );
+    let judge = Judge { frame, primitives: frame.primitives(), reference, outside, tolerance, layers };
     let pixels = reference.coverage.len();
     let differ: Vec<usize> = (0..pixels).filter(|pixel| !judge.agrees(*pixel)).collect();
     let over = match fill {
         Fill::Exact { subpixel_bits } if judge.is_plain() => all_over(machine, frame, subpixel_bits, &differ),
         _ => BTreeMap::new(),
     };
-    let mut judgement = Judgement::new(reference, outside, *tolerance);
     let mut left = differ.iter().peekable();
     for pixel in 0..pixels {
         if left.next_if_eq(&&pixel).is_some() {
@@ -116,10 +135,12 @@ fn judge(
 /// Two pictures of a frame.
 struct Judge<'a> {
     frame: &'a Frame,
+    /// By their places in the input.
+    primitives: Vec<Primitive<'a>>,
     reference: &'a Raster,
     outside: &'a Picture,
     tolerance: &'a Tolerance,
-    /// Of a frame that is blended, whose colours have a bound of their own at each pixel.
+    /// Of a frame that is blended, whose colours have a bound of their own at each pixel, unless the user gave a tolerance.
     layers: Option<Layers>,
 }
 
@@ -147,8 +168,8 @@ impl Judge<'_> {
 
     /// Largest permitted errors of depth and colour at a pixel, LSB.
     fn permitted(&self, pixel: usize) -> [f64; 2] {
-        let layers = self.layers.as_ref().filter(|_| !self.tolerance.is_asked_for);
-        [self.tolerance.z, layers.map_or(self.tolerance.color, |layers| layers.bound[pixel])]
+        let Tolerance { z, color, step, .. } = *self.tolerance;
+        [z, self.layers.as_ref().map_or(color, |layers| layers.bound[pixel] + step)]
     }
 
     fn within(&self, pixel: usize, errors: [f64; 2]) -> bool {
@@ -213,6 +234,7 @@ impl Judge<'_> {
             cause,
             triangle: reference.id[pixel],
             shown,
+            kinds: [reference.id[pixel], shown.unwrap_or(-1)].map(|id| self.kind(id)),
             z: self.outside.z.as_ref().map(|own| [reference.z[pixel], own[pixel]]),
             rgb: self.outside.rgb.as_ref().map(|own| [reference.rgb[pixel], own[pixel]]),
             coverage: self.outside.coverage.as_ref().map(|own| [reference.coverage[pixel], own[pixel]]),
@@ -231,20 +253,25 @@ impl Judge<'_> {
         }
     }
 
-    /// The half-plane that decides whether the pixel of a finding is covered.
+    /// What stands in this place of the input.
+    fn kind(&self, id: i32) -> &'static str {
+        let primitive = usize::try_from(id).ok().and_then(|place| self.primitives.get(place));
+        primitive.map_or("triangle", |primitive| edge::kind(*primitive))
+    }
+
+    /// The edge that decides whether the pixel of a finding is covered.
     fn edge(&self, fill: Fill, found: &Finding) -> Option<Edge> {
         let Fill::Exact { subpixel_bits } = fill else { return None };
-        let triangles = &self.frame.triangles;
-        let of = |id: i32| usize::try_from(id).ok().filter(|place| *place < triangles.len());
-        let of_triangle =
-            |place: usize| Edge::nearest(place, &triangles[place], subpixel_bits, (found.x, found.y));
+        let of = |place: usize| {
+            Edge::nearest(place, *self.primitives.get(place)?, subpixel_bits, (found.x, found.y))
+        };
         match found.cause {
-            Cause::Missing => of_triangle(of(found.triangle)?),
-            Cause::Extra => match found.shown.and_then(of) {
-                Some(place) => of_triangle(place),
-                // Of the triangles that do not cover the pixel the one that comes nearest to it.
-                None => (0..triangles.len())
-                    .filter_map(of_triangle)
+            Cause::Missing => of(usize::try_from(found.triangle).ok()?),
+            Cause::Extra => match found.shown.and_then(|id| usize::try_from(id).ok()) {
+                Some(place) => of(place),
+                // Of what does not cover the pixel the one that comes nearest to it.
+                None => (0..self.primitives.len())
+                    .filter_map(of)
                     .filter(|edge| edge.distance <= 0.0)
                     .max_by(|a, b| a.distance.total_cmp(&b.distance)),
             },

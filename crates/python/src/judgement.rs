@@ -5,9 +5,7 @@ use crate::error::{Error, run};
 use crate::machine::Machine;
 use crate::source;
 use anyhow::ensure;
-use edgewalk_host::draw::draw_frame;
-use edgewalk_host::input::in_triangles;
-use edgewalk_host::port::to_port;
+use edgewalk_host::draw;
 use edgewalk_judge::Verdict;
 use edgewalk_judge::outside::{self, Asked, Cause, Rule, Tolerance};
 use edgewalk_machine::Fill;
@@ -141,15 +139,15 @@ pub fn judge(
     }
     let own = self::rule(None, machine.fill)?;
     let rule = self::rule(rule, machine.fill)?;
-    let tolerance = Tolerance::of(&machine, asked("depth_lsb", depth_lsb)?, asked("color_lsb", color_lsb)?);
+    let (depth, color) = (asked("depth_lsb", depth_lsb)?, asked("color_lsb", color_lsb)?);
     let judgement = run(py, || {
-        let frame = in_triangles(frame, &machine)?;
+        let tolerance = Tolerance::of(&machine, &frame, depth, color);
         if is_machine {
             ensure!(
                 rule == own,
                 "rule: {rule}; the machine draws by {own}; permitted with against=\"machine\": {own}"
             );
-            let drawn = draw_frame(&machine, &to_port(&frame, &machine)?, Waits::Never)?.raster(&machine);
+            let drawn = draw::fast(&frame, &machine, Waits::Never)?;
             return outside::beside_machine(&machine, &frame, &drawn, &picture, &tolerance);
         }
         ensure!(

@@ -127,6 +127,7 @@ WRONG = [
     (lambda: edgewalk.raster("none.tri"), "none.tri"),
     (lambda: edgewalk.raster(triangles(), header="depth les"), "triangles:2: depth: "),
     (lambda: edgewalk.judge(triangles()), "no array; permitted: "),
+    (lambda: edgewalk.judge(triangles(), lit=np.zeros((480, 640), int), against="machine"), "no array can be compared: "),
     (lambda: edgewalk.judge(triangles(), z=np.zeros((3, 3))), r"z: its shape is \[3, 3\]; permitted: \[480, 640\]"),
     (lambda: edgewalk.judge(triangles(), z=np.full((480, 640), 2**24, np.uint32)), "z: 16777216 is more than "),
     (lambda: edgewalk.judge(triangles(), z=np.zeros((480, 640), int)), "z: its type is int64; permitted: "),

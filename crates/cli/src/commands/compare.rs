@@ -219,10 +219,17 @@ fn apart(name: &str) -> Result<(&str, Option<(&'static str, Shaded)>)> {
     }
 }
 
-/// Draws as `render` does; `see` is shown the picture from the top in bands.
+/// The picture with the places in the input for those in the frame.
+fn of_input(drawn: &Raster, places: &[i32]) -> Raster {
+    // Where nothing was drawn the id is negative.
+    let of = |id: &i32| usize::try_from(*id).map_or(*id, |place| places[place]);
+    Raster { id: drawn.id.iter().map(of).collect(), ..drawn.clone() }
+}
+
+/// Draws as `render` does; `see` is shown the picture from the top in bands, with the places of things in the input.
 fn drawn(of: &Asked, waits: Waits, mut see: impl FnMut(&Raster) -> Result<()>) -> Result<Report> {
     let Asked { plan, input, .. } = of;
-    let frame = input.frame(plan)?;
+    let (frame, places) = input.placed(plan)?;
     let port = to_port(&frame, plan)?;
     let reach = reach(plan, &port)?;
     let shading = port.shade.as_ref().map(|feed| &feed.proof);
@@ -231,6 +238,11 @@ fn drawn(of: &Asked, waits: Waits, mut see: impl FnMut(&Raster) -> Result<()>) -
     let subject =
         Subject { name: input.name(), machine: plan, frame: &frame, golden: &golden, proved, waits };
     let draw = |lines, take: &mut dyn FnMut(_) -> _| draw::in_bands(plan, &port, waits, lines, take);
-    let report = subject.report(draw, |lines| see(lines.drawn))?;
+    let is_own = places.iter().zip(0..).all(|(place, own)| *place == own);
+    let report = subject.report(draw, |lines| match is_own {
+        true => see(lines.drawn),
+        // The other machine may have other parts of the same things.
+        false => see(&of_input(lines.drawn, &places)),
+    })?;
     Ok(Report { setup: Some(SetupReport::new(plan, &port.triangles)), ..report })
 }

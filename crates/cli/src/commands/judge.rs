@@ -1,7 +1,7 @@
 //! `edgewalk judge`: the picture of another rasterizer beside golden's, or beside a machine's.
 
 use crate::document::document;
-use crate::input::{Source, to_port};
+use crate::input::Source;
 use crate::machine_args::MachineArgs;
 use crate::number::{real, whole};
 use crate::verdict::Verdict;
@@ -9,6 +9,7 @@ use crate::{Talk, junit};
 use anyhow::{Result, ensure};
 use edgewalk_files::{Staging, foreign, picture};
 use edgewalk_host::draw;
+use edgewalk_host::input::counted;
 use edgewalk_judge::outside::{self, Asked, Cause, Judgement, Rule, Tolerance};
 use edgewalk_machine::{Fill, Plan};
 use edgewalk_model::Waits;
@@ -56,10 +57,10 @@ pub struct Args {
     /// Bits of a colour of the picture [default: formats.color_bits]
     #[arg(long, value_name = "BITS", value_parser = whole::<u32>(1..=48))]
     color_bits: Option<u32>,
-    /// Largest permitted error of a depth, LSB [default: the proved bound of the machine; with --depth-bits 1]
+    /// Largest permitted error of a depth, LSB [default: the proved bound of the machine; 1 if --depth-bits is not formats.z_bits]
     #[arg(long, value_name = "LSB", value_parser = real(0.0..=f64::INFINITY, "LSB"))]
     depth_lsb: Option<f64>,
-    /// Largest permitted error of a colour, LSB [default: the proved bound of the machine; with --color-bits 1]
+    /// Largest permitted error of a colour, LSB [default: the proved bound of the machine; 1 if --color-bits is not formats.color_bits]
     #[arg(long, value_name = "LSB", value_parser = real(0.0..=f64::INFINITY, "LSB"))]
     color_lsb: Option<f64>,
     /// Output directory for judge.json, judge.xml (JUnit) and differences.png
@@ -125,7 +126,8 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
     let out = args.out.as_deref().map(Staging::new).transpose()?;
     let mut source = Source::new(&args.input, args.adapt);
     source.shading = args.shading;
-    let (machine, frame) = source.on_its_screen(machine)?;
+    let machine = source.machine(machine)?;
+    let frame = source.whole(&machine)?;
     let size = (machine.width, machine.height);
     let bits = [args.depth_bits.unwrap_or(machine.z.bits), args.color_bits.unwrap_or(machine.color.bits)];
     let picture = foreign::read(&args.pictures, size, bits)?;
@@ -138,6 +140,7 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
     );
     let tolerance = Tolerance::of(
         &machine,
+        &frame,
         Asked { bits: args.depth_bits, lsb: args.depth_lsb },
         Asked { bits: args.color_bits, lsb: args.color_lsb },
     );
@@ -145,12 +148,11 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
     let judgement = match args.against {
         Against::Golden => outside::beside_golden(&machine, &frame, &picture, &tolerance, rule)?,
         Against::Machine => {
-            let drawn =
-                draw::draw_frame(&machine, &to_port(&frame, &machine)?, Waits::Never)?.raster(&machine);
+            let drawn = draw::fast(&frame, &machine, Waits::Never)?;
             outside::beside_machine(&machine, &frame, &drawn, &picture, &tolerance)?
         }
     };
-    let verdict = judgement.verdict().or_nothing(&args.input, frame.triangles.len() as u64, size)?;
+    let verdict = judgement.verdict().or_nothing(&args.input, counted(&frame).total() as u64, size)?;
     let report = Report {
         input: args.input.clone(),
         against: format!("{:?}", args.against).to_lowercase(),

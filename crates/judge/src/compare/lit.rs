@@ -180,10 +180,9 @@ impl<'a> Lights<'a> {
         self.found
     }
 
-    /// The largest error of a colour, of one that is lit: that of the gate beside it. The share is rounded, and the product.
+    /// The largest error of a colour, of one that is lit: that of the gate beside it.
     pub fn color_bound(&self, lit: f64) -> f64 {
-        let ambient = self.frame.shadows.iter().map(|shadow| shadow.ambient).fold(0.0, f64::max);
-        lit.max(lit * ambient + 1.0)
+        gated(self.frame, lit)
     }
 
     /// What the light with this number may make of a point (pixels and depth) of the triangle at place `id`.
@@ -272,6 +271,12 @@ impl<'a> Lights<'a> {
             false => Some((word, 1.0)),
         }
     }
+}
+
+/// The largest error of a colour behind the gate of the frame's lights, LSB, of one that is lit. The share is rounded, and the product.
+pub(crate) fn gated(frame: &Frame, lit: f64) -> f64 {
+    let ambient = frame.shadows.iter().map(|shadow| shadow.ambient).fold(0.0, f64::max);
+    lit.max(lit * ambient + 1.0)
 }
 
 /// However far off, the texel is outside.

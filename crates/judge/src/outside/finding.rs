@@ -75,11 +75,14 @@ pub struct Finding {
     pub y: u32,
     /// Why.
     pub cause: Cause,
-    /// Place in the input of the triangle that the reference shows, -1 none.
+    /// Place in the input of the triangle, polygon or line that the reference shows, -1 none.
     pub triangle: i32,
-    /// Place in the input of the triangle that the picture shows, where it is known to be another.
+    /// Place in the input of the one that the picture shows, where it is known to be another.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub shown: Option<i32>,
+    /// What these two are called.
+    #[serde(skip)]
+    pub kinds: [&'static str; 2],
     /// Depths in 0 to 1.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub z: Option<[f64; 2]>,
@@ -91,7 +94,7 @@ pub struct Finding {
     pub coverage: Option<[u32; 2]>,
     /// Errors of depth and colour beside what the reference shows, LSB.
     pub error_lsb: [f64; 2],
-    /// The half-plane that decides, of a pixel that is missing or extra.
+    /// The edge that decides, of a pixel that is missing or extra.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub edge: Option<Edge>,
 }
@@ -99,24 +102,24 @@ pub struct Finding {
 impl Finding {
     /// As a line of text.
     fn line(&self) -> String {
-        let Finding { x, y, cause, triangle, shown, error_lsb: [z, color], .. } = self;
+        let Finding { x, y, cause, triangle, shown, kinds: [kind, other], error_lsb: [z, color], .. } = self;
         let at = format!("  ({x}, {y}) {}", cause.text());
         let why = match cause {
             Cause::Missing | Cause::Extra => self.edge.map_or_else(String::new, |edge| {
-                let Edge { triangle, vertices: [from, to], distance } = edge;
+                let Edge { triangle, kind, vertices: [from, to], distance } = edge;
                 let place = match distance {
                     0.0 => "on".to_owned(),
                     d if d < 0.0 => format!("{:.4} px outside of", -d),
                     d => format!("{d:.4} px inside of"),
                 };
-                format!(": triangle {triangle}: the centre lies {place} the edge of vertices {from} and {to}")
+                format!(": {kind} {triangle}: the centre lies {place} the edge of vertices {from} and {to}")
             }),
             Cause::Tie | Cause::WrongWinner => {
-                let shown = shown.map_or_else(|| "another".to_owned(), |id| id.to_string());
-                format!(": triangle {shown} for {triangle}; depth {z:.4} LSB off")
+                let shown = shown.map_or_else(|| "another".to_owned(), |id| format!("{other} {id}"));
+                format!(": {shown} for {kind} {triangle}; depth {z:.4} LSB off")
             }
-            Cause::Depth => format!(": triangle {triangle}: {z:.4} LSB off"),
-            Cause::Color => format!(": triangle {triangle}: {color:.4} LSB off"),
+            Cause::Depth => format!(": {kind} {triangle}: {z:.4} LSB off"),
+            Cause::Color => format!(": {kind} {triangle}: {color:.4} LSB off"),
             Cause::Twice | Cause::LayerMissing => {
                 self.coverage.map_or_else(String::new, |[reference, own]| format!(": {own} for {reference}"))
             }
@@ -256,13 +259,15 @@ impl Judgement {
             self.wrong()
         );
         let kinds = [
-            ("depth", tolerance.z, tolerance.z_bits, largest_error_lsb[0]),
-            ("colour", tolerance.color, tolerance.color_bits, largest_error_lsb[1]),
+            ("depth", tolerance.z, tolerance.z_bits, None, largest_error_lsb[0]),
+            ("colour", tolerance.color, tolerance.color_bits, tolerance.layers, largest_error_lsb[1]),
         ];
-        for (name, permitted, bits, largest) in kinds {
+        for (name, permitted, bits, layers, largest) in kinds {
             let Some(largest) = largest else { continue };
+            let layers = layers
+                .map_or_else(String::new, |most| format!(", at most {most:.4} behind the layers of a pixel"));
             t += &format!(
-                "{name}: tolerance {permitted:.4} LSB of {bits} bits, largest error where pixels agree {largest:.4}\n"
+                "{name}: tolerance {permitted:.4} LSB of {bits} bits{layers}, largest error where pixels agree {largest:.4}\n"
             );
         }
         for Count { cause, pixels, .. } in self.causes.iter().filter(|count| count.pixels > 0) {

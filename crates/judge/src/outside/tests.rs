@@ -44,7 +44,7 @@ const LAST: usize = 16 * 12 - 1;
 fn judged(frame: &Frame, machine: &Plan, asked: Asked, fault: impl FnOnce(&mut Picture)) -> Judgement {
     let mut picture = picture(draw::golden(frame, machine));
     fault(&mut picture);
-    let tolerance = Tolerance::of(machine, Asked::default(), asked);
+    let tolerance = Tolerance::of(machine, frame, Asked::default(), asked);
     beside_golden(machine, frame, &picture, &tolerance, Rule::TopLeft).unwrap()
 }
 
@@ -115,7 +115,7 @@ fn every_wrong_pixel_is_counted() {
 /// As near as the tolerance says another triangle may show; an LSB farther it may not.
 #[test]
 fn tie_is_as_near_as_the_tolerance_says() {
-    let tolerance = Tolerance::of(&machine(), Asked::default(), Asked::default());
+    let tolerance = Tolerance::of(&machine(), &frame(), Asked::default(), Asked::default());
     let within = (2.0 * tolerance.z + 1.0).floor();
     for (lsb, cause, verdict) in [(within, Cause::Tie, Pass), (within + 1.0, Cause::WrongWinner, Mismatch)] {
         let mut frame = frame();
@@ -157,7 +157,7 @@ fn nothing_covered_is_nothing_judged() {
 fn machines_picture_must_be_equal() {
     let (frame, machine) = (frame(), machine());
     let drawn = draw::fast(&frame, &machine, Waits::Never).unwrap();
-    let tolerance = Tolerance::of(&machine, Asked::default(), Asked::default());
+    let tolerance = Tolerance::of(&machine, &frame, Asked::default(), Asked::default());
     for (off, verdict) in [(0.0, Pass), (0.25, Mismatch)] {
         let mut picture = picture(drawn.clone());
         *z(&mut picture, UNDER) += off * Z;
@@ -170,7 +170,7 @@ fn machines_picture_must_be_equal() {
 #[test]
 fn findings_lie_where_the_screen_has_them() {
     let (frame, machine) = (frame(), machine());
-    let tolerance = Tolerance::of(&machine, Asked::default(), Asked::default());
+    let tolerance = Tolerance::of(&machine, &frame, Asked::default(), Asked::default());
     for rule in [Rule::TopLeft, Rule::TopRight, Rule::BottomLeft, Rule::BottomRight] {
         let mut picture = picture(draw::golden(&frame, &machine));
         picture.coverage = None;

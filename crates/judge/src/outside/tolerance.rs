@@ -1,6 +1,9 @@
 //! How far another rasterizer may be from the reference.
 
+use crate::compare::gated;
+use edgewalk_host::polygon::defects;
 use edgewalk_machine::{Channel, Plan};
+use edgewalk_scene::Frame;
 use serde::Serialize;
 
 /// Largest permitted errors.
@@ -20,7 +23,13 @@ pub struct Tolerance {
     pub z_bits: u32,
     /// Bits of a colour.
     pub color_bits: u32,
-    /// The user gave the tolerance of colours: it holds at each pixel.
+    /// Of a blended frame whose tolerance nobody gave: the largest of a pixel's colour, LSB.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub layers: Option<f64>,
+    /// What DITHER may add to the bound of a blended pixel, LSB.
+    #[serde(skip)]
+    pub(super) step: f64,
+    /// The user gave the tolerance of colours, or another format than the machine's: it holds at each pixel.
     #[serde(skip)]
     pub is_asked_for: bool,
 }
@@ -35,20 +44,28 @@ pub struct Asked {
 }
 
 impl Tolerance {
-    /// The proved bound of the machine's outputs where nothing else is asked for; 1 LSB where none is proved, and of values with
-    /// another number of bits.
+    /// The proved bound of the machine's outputs where nothing else is asked for: of vertices, additions and rounding, of the frame's
+    /// polygons (bounds 19 and 20), of the gate of its lights, and of DITHER (bound 18). Where sums may wrap, 1 LSB is in the place of
+    /// the first. Values with another number of bits have 1 LSB of these.
     #[must_use]
-    pub fn of(machine: &Plan, z: Asked, color: Asked) -> Self {
-        let of = |asked: Asked, channel: &Channel| {
+    pub fn of(machine: &Plan, frame: &Frame, z: Asked, color: Asked) -> Self {
+        let (channels, defects) = (machine.channels(), defects(frame, machine));
+        let proved = |place: usize| {
+            let budget = machine.proved_budget(&channels[place]);
+            budget.map_or(1.0, |budget| budget.after_rounding().to_f64()) + defects[place]
+        };
+        let is_gated = frame.passes().iter().any(|pass| frame.shadow(pass.state.light).is_some());
+        let step = machine.dither_step();
+        let of_color = if is_gated { gated(frame, proved(1)) } else { proved(1) } + step;
+        let of = |asked: Asked, channel: &Channel, bound: f64| {
             let bits = asked.bits.unwrap_or(channel.bits);
-            let proved = machine.proved_budget(channel).ok().filter(|_| bits == channel.bits);
-            let bound = proved.map_or(1.0, |budget| budget.after_rounding().to_f64());
+            let bound = if bits == channel.bits { bound } else { 1.0 };
             (asked.lsb.unwrap_or(bound), 1.0 / ((1u64 << bits) - 1) as f64, bits)
         };
-        let (z, z_lsb, z_bits) = of(z, &machine.channels()[0]);
-        let is_asked_for = color.bits.is_some() || color.lsb.is_some();
-        let (color, color_lsb, color_bits) = of(color, &machine.channels()[1]);
-        Tolerance { z, color, z_lsb, color_lsb, z_bits, color_bits, is_asked_for }
+        let is_asked_for = color.lsb.is_some() || color.bits.is_some_and(|bits| bits != channels[1].bits);
+        let (z, z_lsb, z_bits) = of(z, &channels[0], proved(0));
+        let (color, color_lsb, color_bits) = of(color, &channels[1], of_color);
+        Tolerance { z, color, z_lsb, color_lsb, z_bits, color_bits, layers: None, step, is_asked_for }
     }
 
     /// The same formats; every value must be equal.

@@ -17,7 +17,7 @@ use std::borrow::Cow;
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 #[error(
     "polygon at vertex {x} {y}: the edge from there crosses another of its edges; permitted, where only triangles \
-     can be drawn: edges that do not cross"
+     can be drawn: edges that do not cross; cut the polygon there, or draw it by a machine with POLY, as --set polygon.edges=64 has"
 )]
 pub struct CrossingEdges {
     /// Where one of them begins, pixels.
