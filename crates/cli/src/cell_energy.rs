@@ -55,14 +55,19 @@ impl CellEnergy {
     /// or at the fastest clock. Each token that enters the machine calls `taken`.
     ///
     /// # Errors
-    /// A tool is missing, fails or takes too long; a machine that cannot be built; gates that differ from the netlist; too few
+    /// A tool is missing, fails or takes too long; a machine that cannot be built; a clock that is too fast; gates that differ from the netlist; too few
     /// cycles to compare the two.
     pub fn measure(&self, of: &Drawing, mhz: Option<f64>, taken: &dyn Fn()) -> Result<Report> {
         let design = Design::new(of.machine, Part::MACHINE)
             .map_err(|e| anyhow!("the netlist cannot be built: {e}"))?;
         let gates = gates(&design, &self.library, &self.cache, self.limit)?;
+        let fastest = 1000.0 / gates.placeless.ns;
+        let mhz = mhz.unwrap_or(fastest);
+        ensure!(
+            mhz <= fastest,
+            "--mhz {mhz}: the gates permit {fastest:.1} MHz at most; leave --mhz out for that clock"
+        );
         let (run, cycles, counters) = drawn(of, &gates, &self.library, taken)?;
-        let mhz = mhz.unwrap_or(1000.0 / gates.placeless.ns);
         let frame = frame(of.port, cycles, &counters);
         let power = power(&gates, &self.library, &run, 1000.0 / mhz)?;
         ensure!(

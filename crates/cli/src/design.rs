@@ -3,11 +3,15 @@
 use anyhow::{Result, anyhow};
 use edgewalk_files::Staging;
 use edgewalk_machine::Plan;
+use edgewalk_vectors::Unit;
 use edgewalk_vectors::write::core;
 
-/// The files that `write_design` may write under `folder`: of the lanes of SETUP a machine has 1, 2 or 4.
+/// The files that `write_design` may write under `folder` for some machine: a machine has some of the units, 1, 2 or 4 lanes of
+/// SETUP, and queues.
 pub fn own(folder: &str) -> Vec<String> {
-    (0..4).map(|lane| format!("{folder}edgewalk_setup_lane{lane}.v")).collect()
+    let lanes = (0..4).map(|lane| format!("setup_lane{lane}"));
+    let units = Unit::known().flat_map(|unit| [unit.name().to_owned(), format!("{}_fifo", unit.name())]);
+    units.chain(lanes).map(|module| format!("{folder}edgewalk_{module}.v")).collect()
 }
 
 /// Prints every module of the machine under `folder` of `out`, with the machine file and the list of modules in compile

@@ -226,6 +226,10 @@ fn energy_refuses_what_it_cannot_do() {
         (&["vectors", "--count", "0"], "0 is not in 1.."),
         (&["energy", "none.tri"], "none.tri: cannot be read"),
         (
+            &[&["energy", "sphere", "--mhz", "1000", "--cache", *GATES][..], &SMALL].concat(),
+            "--mhz 1000: the gates permit 243.6 MHz at most; leave --mhz out for that clock",
+        ),
+        (
             &[&["energy", "sphere", "--cycles", "16", "--cache", *GATES][..], &SMALL].concat(),
             "16 cycles were run; more than 16 are needed: gates and netlist are compared from then on",
         ),

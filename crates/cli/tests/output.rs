@@ -346,3 +346,35 @@ fn the_target_may_be_a_mount_point() {
     }
     assert!(checked > 0, "neither a mount namespace nor /dev/shm: nothing was checked");
 }
+
+/// One machine after the other in the same folder: it holds the modules of the last one alone.
+#[test]
+fn modules_of_another_machine_do_not_stay() {
+    let folder = folder();
+    let at = |name: &str| folder.path().join(name);
+    let bumps = "shade.kind=phong shade.colour=multiply texture.kind=nearest texture.bump=yes dither.bits=4";
+    let mut modules = std::collections::BTreeSet::new();
+    let mut checked = 0;
+    for (preset, sets) in [
+        ("polygon", ""),
+        ("default", bumps),
+        ("hx8k", ""),
+        ("bilinear", ""),
+        ("default", "shade.kind=phong shade.light=positional"),
+        ("default", "shadow.light=perspective shadow.gate=scale blend.kind=constant"),
+        ("small", ""),
+        ("default", ""),
+    ] {
+        let sets: Vec<&str> = sets.split_whitespace().flat_map(|set| ["--set", set]).collect();
+        passes(folder.path(), &[&["emit", "--machine", preset, "--out", "z", "-q"][..], &sets].concat());
+        let list = std::fs::read_to_string(at("z/filelist.f")).unwrap();
+        let mut listed: Vec<&str> = list.lines().filter(|line| line.ends_with(".v")).collect();
+        listed.sort_unstable();
+        let files: Vec<String> = names(&at("z")).into_iter().filter(|name| name.ends_with(".v")).collect();
+        assert_eq!(files, listed, "{preset} {sets:?}");
+        modules.extend(files);
+        checked += 1;
+    }
+    println!("{checked} machines, {} modules", modules.len());
+    assert!(modules.len() > 20, "{modules:?}");
+}

@@ -235,3 +235,29 @@ fn machines_with_poly_warn_of_nothing() {
         assert!(code == Some(0) && !said.contains("warning"), "{lines}: {said}");
     }
 }
+
+/// Cases that examples of help and pages name are there.
+#[test]
+fn cases_of_examples_are_known() {
+    let folder = tempfile::tempdir().unwrap();
+    let page =
+        std::fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs/own_rtl.md")).unwrap();
+    let help = ["vectors", "verify"].map(|command| {
+        let output = edgewalk(folder.path(), &[command, "--help"]).output().unwrap();
+        String::from_utf8(output.stdout).unwrap()
+    });
+    let mut checked = 0;
+    for line in help.iter().flat_map(|help| help.lines()).chain(page.lines()) {
+        let words: Vec<&str> = line.split_whitespace().collect();
+        if words.first() != Some(&"edgewalk") {
+            continue;
+        }
+        for pair in words.windows(2).filter(|pair| pair[0] == "--only") {
+            let (code, error) =
+                run(folder.path(), &["vectors", "--only", pair[1], "--unit", "pixel", "--out", "v"]);
+            assert_eq!(code, Some(0), "{line}: {error}");
+            checked += 1;
+        }
+    }
+    assert!(checked >= 3, "{checked} examples");
+}

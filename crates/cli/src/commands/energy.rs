@@ -5,6 +5,7 @@ use crate::cell_energy::{CellEnergy, Drawing};
 use crate::document::document;
 use crate::input::{Source, to_port};
 use crate::machine_args::MachineArgs;
+use crate::number::whole;
 use crate::progress;
 use crate::verdict::Verdict;
 use anyhow::Result;
@@ -27,11 +28,11 @@ use std::path::PathBuf;
 pub struct Args {
     #[command(flatten)]
     source: Source,
-    /// Draw this many triangles, polygons and lines of the input; all of them if left out
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
+    /// Draw this many triangles, polygons and lines, the first ones of the input; all of them if left out
+    #[arg(long, value_name = "N", value_parser = whole::<u64>(1..))]
     triangles: Option<u64>,
     /// Stop after this many cycles
-    #[arg(long, value_name = "N", default_value_t = 1_000_000, value_parser = clap::value_parser!(u64).range(1..))]
+    #[arg(long, value_name = "N", default_value_t = 1_000_000, value_parser = whole::<u64>(1..))]
     cycles: u64,
     /// Clock at which the power is told; the fastest that the gates permit if left out
     #[arg(long, value_name = "MHZ", value_parser = megahertz)]
@@ -40,7 +41,7 @@ pub struct Args {
     #[arg(long, value_name = "FILE.lib")]
     library: Option<PathBuf>,
     /// Time limit of each run of a tool, seconds
-    #[arg(long, default_value_t = 3600, value_name = "SECONDS", value_parser = clap::value_parser!(u64).range(1..))]
+    #[arg(long, default_value_t = 3600, value_name = "SECONDS", value_parser = whole::<u64>(1..))]
     limit: u64,
     /// Folder of the cache; $XDG_CACHE_HOME/edgewalk/synth or ~/.cache/edgewalk/synth if left out
     #[arg(long, value_name = "DIR")]

@@ -27,8 +27,8 @@ use views::Views;
 /// Run the machine's netlist and write the waveform or the transitions of every signal that can change.
 ///
 /// The ending of the file chooses the format: VCD and FST are waveforms, SAIF counts transitions. `activity_name` holds the
-/// cause of each cycle in words: as text in a VCD, as ASCII in an FST. With SAIF the sums by unit are printed. A unit's bits
-/// are those of its registers, wires and outputs that have a name.
+/// cause of each cycle in words: as text in a VCD, as ASCII in an FST. With SAIF the sums by unit are printed. Each signal with a
+/// name is told once, with the unit that drives it. The machine's inputs are told as `top`.
 #[derive(clap::Args)]
 #[command(after_help = "Examples:
   edgewalk trace sphere --out out/sphere.fst --triangles 20
@@ -46,7 +46,7 @@ pub struct Args {
     /// Output file, .vcd, .fst or .saif
     #[arg(long, value_name = "FILE")]
     out: PathBuf,
-    /// Draw this many triangles, polygons and lines of the input
+    /// Draw this many triangles, polygons and lines, the first ones of the input
     #[arg(long, default_value_t = 10, value_parser = whole::<u64>(1..))]
     triangles: u64,
     /// Stop after this many cycles of waveform

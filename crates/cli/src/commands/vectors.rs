@@ -29,7 +29,7 @@ use std::path::PathBuf;
   make -C out/mine/triangles_pixel icarus HDL=mine.v CHECK_CYCLES=0
   edgewalk vectors --dut dut.toml --suite hazards --suite corners --out out/own
   make -C out/own/hazards_pixel icarus verilator lint
-  edgewalk vectors --suite hazards --only knee_line --unit pixel --out out/one")]
+  edgewalk vectors --suite hazards --only knee_line_of_one_pixel --unit pixel --out out/one")]
 pub struct Args {
     /// A built-in scene, a scene file (.toml), a mesh (.obj, .gltf, .glb) or a triangle file (.tri) whose triangles are a suite
     #[arg(value_name = "SCENE|MESH|FILE.tri")]

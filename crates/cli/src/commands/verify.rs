@@ -44,7 +44,7 @@ use std::time::Duration;
   edgewalk verify triangles.tri --set interpolator.adders=1 --set memory.hazard=interlock
   edgewalk verify torus --stalls late --triangles 1000 --no-simulators --json
   edgewalk verify --dut dut.toml --junit out/verify.xml
-  edgewalk verify --dut dut.toml --simulator icarus --only knee_line")]
+  edgewalk verify --dut dut.toml --simulator icarus --only knee_line_of_one_pixel")]
 pub struct Args {
     #[command(flatten)]
     source: Source,
@@ -64,7 +64,7 @@ pub struct Args {
     #[arg(long, value_name = "FILE.toml", conflicts_with = "no_simulators")]
     dut: Option<PathBuf>,
     /// Simulators for --dut: icarus, verilator [default: both; Verilator takes all directed suites as one]
-    #[arg(long, value_name = "NAME", requires = "dut", value_parser = simulator)]
+    #[arg(long, value_name = "NAME", requires = "dut", conflicts_with = "no_simulators", value_parser = simulator)]
     simulator: Vec<Simulator>,
     /// Cases: of every suite those of these names; all of them if left out
     #[arg(long, value_name = "CASE")]

@@ -28,7 +28,7 @@ pub(super) struct Flat<'l> {
 
 /// A cell in its place.
 pub(super) struct Instance<'l> {
-    /// Its path, as OpenSTA has it: `u_span/queue/cell_7`.
+    /// The path, as OpenSTA has it: `u_span/queue/cell_7`.
     pub path: String,
     /// The unit it belongs to; empty for what joins the units.
     pub unit: String,
@@ -41,7 +41,7 @@ pub(super) struct Instance<'l> {
 
 /// The output at which a flip-flop's state is seen.
 pub(super) struct Seen {
-    /// Its place among the cell's pins.
+    /// The output's place among the cell's pins.
     pub pin: usize,
     /// Names of its bit: `u_span.queue.place1_z[0]`.
     pub names: Vec<String>,

@@ -49,7 +49,7 @@ struct Values {
 
 /// Where a flip-flop's value comes from.
 enum Source {
-    /// This bit of a block.
+    /// A bit of a block.
     Bit(usize),
     /// Bits of a block: the flip-flop is 1 where all bits of one of these states have these values.
     States(Vec<Vec<(usize, bool)>>),
@@ -86,7 +86,14 @@ impl<'l> GateRun<'l> {
         places: &BTreeMap<String, usize>,
     ) -> Result<GateRun<'l>, Stop> {
         let flat = Flat::new(gates, library)?;
-        let inputs = flat.inputs.iter().filter_map(|(name, net)| Some((*net, *places.get(name)?))).collect();
+        let input = |(name, net): &(String, usize)| match places.get(name) {
+            Some(place) => Ok((*net, *place)),
+            None => {
+                let line = format!("its gates have an input {name}, which the netlist has not");
+                Err(Stop::Broken { tool: "yosys".to_owned(), lines: vec![line] })
+            }
+        };
+        let inputs = flat.inputs.iter().map(input).collect::<Result<_, Stop>>()?;
         let outputs = flat.outputs.iter().enumerate();
         let outputs = outputs.filter_map(|(at, (name, net))| Some((at, *net, *places.get(name)?))).collect();
         let registers = &flat.cells[flat.gates..];

@@ -125,7 +125,7 @@ impl Library {
     }
 
     /// Of the text of a file.
-    fn of(text: String, file: &str) -> Result<Library, LibraryError> {
+    pub(super) fn of(text: String, file: &str) -> Result<Library, LibraryError> {
         let whole = |what: &str| LibraryError::Whole { file: file.to_owned(), what: what.to_owned() };
         let at = |Wrong { line, what }| LibraryError::Line { file: file.to_owned(), line, what };
         let library = parse(&text).map_err(at)?;

@@ -14,7 +14,7 @@
 use super::cell::{Cell, Energy, Pin};
 use super::gate_run::GateRun;
 use super::gates::{Gates, JOINTS, UnitArea};
-use super::library::Library;
+use super::library::{Library, Units};
 use edgewalk_tool::Stop;
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -85,7 +85,7 @@ pub fn power(gates: &Gates, library: &Library, run: &GateRun, period: f64) -> Re
     let mut watts: BTreeMap<&str, [f64; 2]> = BTreeMap::new();
     let seconds = cycles * period * 1e-9;
     for (of, causes) in flat.cells.iter().zip(&counts.causes) {
-        let joules = spent(of.cell, &of.nets, &counts.transitions, causes, cycles, (&loads, &slews), library);
+        let joules = spent(of.cell, &of.nets, &counts.transitions, causes, cycles, (&loads, &slews), units);
         let leaks = of.cell.leakage * units.watts;
         leakage += leaks;
         let unit = watts.entry(&of.unit).or_default();
@@ -126,9 +126,8 @@ pub(super) fn spent(
     causes: &[u64],
     cycles: f64,
     (loads, slews): (&[f64], &[[f64; 2]]),
-    library: &Library,
+    units: Units,
 ) -> Joules {
-    let units = library.units;
     let clock = cell.register.as_ref().map(|register| register.clock);
     // The mean of rise and fall: a net does both equally often.
     let half = |energy: &Energy, load: f64, [rises, falls]: [f64; 2]| {

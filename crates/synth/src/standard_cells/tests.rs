@@ -17,12 +17,13 @@ const LIMIT: Duration = Duration::from_secs(60);
 /// A state machine that Yosys gives other codes, an instance with a constant output and a port that goes straight through, and
 /// counters.
 const DESIGN: &str = "
-module fold(input clk, input [7:0] total, input [3:0] a, output [7:0] next, output [3:0] same, output none);
+module fold(input clk, input [7:0] total, input [3:0] a, output [7:0] next, output [3:0] same, output none, output all);
     reg [3:0] kept;
     always @(posedge clk) kept <= a;
     assign next = total + {kept, a};
     assign same = a;
     assign none = 1'b0;
+    assign all = 1'b1;
 endmodule
 
 module top(input clk, input rst, input [3:0] a, input go, output [7:0] sum, output odd, output [3:0] seen);
@@ -31,8 +32,8 @@ module top(input clk, input rst, input [3:0] a, input go, output [7:0] sum, outp
     reg [2:0] count;
     wire [7:0] next;
     wire [3:0] same;
-    wire none;
-    fold u_fold(.clk(clk), .total(total), .a(a), .next(next), .same(same), .none(none));
+    wire none, all;
+    fold u_fold(.clk(clk), .total(total), .a(a), .next(next), .same(same), .none(none), .all(all));
     always @(posedge clk) begin
         if (rst) state <= 0;
         else begin
@@ -48,7 +49,7 @@ module top(input clk, input rst, input [3:0] a, input go, output [7:0] sum, outp
         else if (state == 2 || state == 3) count <= count + 1;
     end
     assign sum = total;
-    assign odd = ^total;
+    assign odd = ^total & all;
     assign seen = {count[2], state == 3, count[0] & go, none | (state == 1)};
 endmodule
 ";
@@ -104,7 +105,14 @@ fn mapped() -> Mapped {
         module: "top".to_owned(),
         units: Vec::new(),
     };
-    let library = Library::installed().expect("tests/run installs the library");
+    let installed = Library::installed().expect("tests/run installs the library").text;
+    // A NAND takes its energy by A where B is 1 alone.
+    let nand = installed.find("cell (NAND2X1)").expect("a NAND");
+    let (before, nand) = installed.split_at(nand);
+    let power = nand.find("internal_power").expect("energies");
+    let (delays, energies) = nand.split_at(power);
+    let energies = energies.replacen("related_pin : \"A\";", "related_pin : \"A\"; when : \"B\";", 1);
+    let library = Library::of([before, delays, &energies].concat(), "cells.lib").expect("a library");
     let [root, scratch] = ["kept", "scratch"].map(|name| folder.path().join(name));
     let gates = gates(&design, &library, &Cache::new(root.clone(), scratch), LIMIT).expect("gates");
     let steps = std::fs::read_dir(root).expect("the cache");
@@ -225,7 +233,7 @@ fn every_net_moves_as_often_as_in_icarus() {
         assert!((1..150).contains(&expected), "{expected} cycles of {unit:?} are still");
     }
     assert_eq!(counts.still.len(), 2);
-    let mut sums = [0, 0];
+    let (mut sums, mut conditions) = ([0, 0], 0);
     for (of, causes) in flat.cells.iter().zip(&counts.causes) {
         let mut causes = causes.iter();
         for (place, (pin, net)) in of.cell.pins.iter().zip(&of.nets).enumerate() {
@@ -240,14 +248,22 @@ fn every_net_moves_as_often_as_in_icarus() {
             for energy in &pin.energies {
                 let cause = energy.cause.filter(|cause| Some(*cause) != clock);
                 let other = cause.map_or_else(|| moved.clone(), |cause| moves(&wave(of.nets[cause])));
-                let expected =
-                    moved.iter().zip(&other).filter(|(one, other)| **one && **other).count() as u64;
+                let inputs: Vec<Vec<bool>> = of.nets[..of.cell.inputs].iter().map(|net| wave(*net)).collect();
+                let holds = |cycle: usize| {
+                    let state =
+                        inputs.iter().rev().fold(0, |state, wave| state << 1 | u32::from(wave[cycle]));
+                    energy.when.is_none_or(|when| when >> state & 1 == 1)
+                };
+                conditions += u64::from(energy.when.is_some());
+                let both = (0..CYCLES - 1).filter(|cycle| moved[*cycle] && other[*cycle] && holds(cycle + 1));
+                let expected = both.count() as u64;
                 assert_eq!(causes.next(), Some(&expected), "{}/{} of {cause:?}", of.path, pin.name);
                 sums[1] += expected;
             }
         }
     }
     println!("{} cells, {} transitions, {} with a cause", flat.cells.len(), sums[0], sums[1]);
+    assert!(conditions > 3, "{conditions} NANDs");
     assert!(
         flat.cells.len() > 60 && sums[0] > 2000 && sums[1] > 2000,
         "{} cells, {sums:?}",
@@ -308,13 +324,15 @@ fn power_is_that_of_opensta() {
         // 2.0.17 takes the rise of the output with the rise of the input, whatever the gate.
         cell.pins.iter_mut().flat_map(|pin| &mut pin.energies).for_each(|energy| energy.along = Some(true));
         let watts = |joules: Joules| (joules.clock + joules.flip_flops + joules.gates) / seconds;
-        let ours =
-            |cell: &_| watts(spent(cell, &of.nets, &once, &causes, 1.0, (&loads, &slews), &mapped.library));
+        let ours = |cell: &_| {
+            watts(spent(cell, &of.nets, &once, &causes, 1.0, (&loads, &slews), mapped.library.units))
+        };
         let all = ours(&cell);
         let charged = {
             let mut empty = cell.clone();
             empty.pins.iter_mut().for_each(|pin| pin.energies.clear());
-            let none = watts(spent(&empty, &of.nets, &once, &[], 1.0, (&loads, &slews), &mapped.library));
+            let none =
+                watts(spent(&empty, &of.nets, &once, &[], 1.0, (&loads, &slews), mapped.library.units));
             // OpenSTA does not charge the clock's net.
             let clock = cell.register.as_ref().map_or(0.0, |register| cell.pins[register.clock].capacitance);
             none - clock * 1e-12 * 1.8 * 1.8 / seconds
@@ -343,4 +361,33 @@ fn power_is_that_of_opensta() {
     }
     println!("{} cells; {checked:?}", flat.cells.len());
     assert!(checked["flip-flops"] >= 15 && checked["gates of one input"] >= 5, "{checked:?}");
+}
+
+/// Each cause has its share; a gate that inverts has its rise with the fall of the cause.
+#[test]
+fn causes_share_the_energy_of_a_transition() {
+    let text = "library (l) { nom_voltage : 2; capacitive_load_unit (1, pf);
+        power_lut_template (scalar) { }
+        power_lut_template (t) { variable_1 : input_transition_time; index_1 (\"0, 1\"); }
+        cell (FF) { area : 1; ff (I, N) { next_state : \"D\"; clocked_on : \"C\"; } pin (D) { direction : input; }
+            pin (C) { direction : input; } pin (Q) { direction : output; function : \"I\"; } }
+        cell (IV) { area : 1; pin (A) { direction : input; } pin (Y) { direction : output; function : \"!A\"; } }
+        cell (ND) { area : 1; pin (A) { direction : input; internal_power () { power (t) { values (\"7, 8\"); } } }
+            pin (B) { direction : input; }
+            pin (Y) { direction : output; function : \"!(A B)\";
+                internal_power () { related_pin : \"A\"; rise_power (t) { values (\"0, 1\"); }
+                    fall_power (t) { values (\"0, 10\"); } }
+                internal_power () { related_pin : \"B\"; rise_power (scalar) { values (\"100\"); }
+                    fall_power (scalar) { values (\"200\"); } } } } }";
+    let library = Library::of(text.to_owned(), "l.lib").expect("a library");
+    let cell = library.cell("ND").expect("a NAND");
+    let slews = [[2.0, 5.0], [3.0, 3.0], [0.0, 0.0]];
+    let joules =
+        spent(cell, &[0, 1, 2], &[11, 9, 8], &[6, 3, 1], 100.0, (&[0.0, 0.0, 0.5], &slews), library.units);
+    // Of A: a rise at 2 and a fall at 5. Of Y: three of four with A, whose fall at 5 makes it rise; and its load at 2 V.
+    let of_a = 6.0 * ((7.0 + 2.0) + (7.0 + 5.0)) / 2.0;
+    let of_y = 8.0 * (0.75 * (5.0 + 20.0) / 2.0 + 0.25 * (100.0 + 200.0) / 2.0 + 0.5 * 0.5 * 4.0);
+    let told = joules.gates * 1e12;
+    assert!((told - of_a - of_y).abs() < 1e-9, "{told} pJ, {} by hand", of_a + of_y);
+    assert_eq!((joules.clock, joules.flip_flops), (0.0, 0.0));
 }

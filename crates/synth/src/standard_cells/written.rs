@@ -27,7 +27,7 @@ pub(super) struct Module {
 /// A cell, or an instance of a module.
 #[derive(Debug, Serialize, Deserialize)]
 pub(super) struct Placed {
-    /// Its name.
+    /// The name of the cell or instance.
     pub name: String,
     /// The library's cell, or the module.
     pub of: String,
