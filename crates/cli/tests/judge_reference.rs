@@ -352,3 +352,23 @@ fn values_out_of_range_are_refused() {
     npy(&folder.path().join("z.npy"), "<f4", 1, &1.000_001f32.to_le_bytes());
     assert_eq!(judged(folder.path(), &["z.npy"]).0, Some(1));
 }
+
+/// A picture without its shadows is wrong, where layers lie over one another too.
+#[test]
+fn blended_pixels_must_be_in_shadow() {
+    let glass = SHADE.replace("0.1 0  64", "0.1 .25  64").replace("0.6 0  64", "0.6 .25  64");
+    let glass = glass.replace("1 0  0 64", "1 .25  0 64").replace("0.7 0\n", "0.7 .25\n");
+    for text in [SHADE.to_owned(), glass.replacen('\n', "\nblend 1\n", 1)] {
+        let folder = folder(&text);
+        let lit: Vec<&str> =
+            text.lines().filter(|line| !line.starts_with(['s', 'L']) || line.starts_with("size")).collect();
+        std::fs::write(folder.path().join("lit.tri"), lit.join("\n")).unwrap();
+        raster(folder.path(), &["--adapt"], "m");
+        assert_eq!(judged(folder.path(), &["m", "--adapt"]).0, Some(0), "{text}");
+        let words = ["raster", "lit.tri", "--adapt", "--out", "lit"];
+        assert_eq!(ended(&edgewalk(folder.path(), &words).output().unwrap()).0, Some(0));
+        let (code, report, error) = judged(folder.path(), &["lit/rgb.npy", "--adapt"]);
+        assert_eq!(code, Some(1), "{text}{error}");
+        assert!(report["wrong"].as_u64().unwrap() > 1000, "{report}");
+    }
+}

@@ -3,7 +3,7 @@
 //! A colour of a blended picture hangs on every fragment under it. So where a single depth test at a pixel is open
 //! (bound 7), any of two colours may come of it, and the pixel counts as undecided.
 
-use super::lit::{Lights, Seen};
+use super::lit::{Lights, Seen, share_error};
 use super::order::apart;
 use edgewalk_golden::Step;
 use edgewalk_host::polygon::defects;
@@ -53,7 +53,8 @@ impl Blended {
 }
 
 impl Layers {
-    /// `None` where every pixel shows one fragment as it is, or as a light leaves it or takes it away. `lights`: of the frame, if any counts.
+    /// `None` where every pixel shows one fragment as it is, or as a light leaves it or takes it away. `lights`: of the frame, if any counts;
+    /// without them golden's shares of the colours are the only right ones.
     pub fn of(machine: &Plan, frame: &Frame, mut lights: Option<&mut Lights>) -> Option<Layers> {
         let passes = frame.passes();
         let shares = lights.is_some() && machine.shadow.transmits();
@@ -79,9 +80,13 @@ impl Layers {
             Step::Stored { at, id, z, own, light, share, kt, back, blend, .. } => {
                 layers.stored[at] += 1;
                 let point = [(at % width) as f64 + 0.5, (at / width) as f64 + 0.5, z];
-                let seen = lights.as_mut().map_or(Seen::LIT, |lights| lights.seen(point, id, light));
                 let front = own.map(|channel| channel * share);
-                let error = errors.front(own, share, &seen);
+                let (seen, rounded) = match &mut lights {
+                    Some(lights) => (lights.seen(point, id, light), 0.0),
+                    // Nothing is known of the map: what golden decides is right.
+                    None => (Seen::of_share(share), share_error(machine, frame.shadow(light), share)),
+                };
+                let error = errors.front(own, share, &seen) + rounded;
                 layers.last[at] = seen;
                 layers.loose[at] |= (seen.shares[1] - seen.shares[0]) * errors.max > 1.0;
                 layers.bound[at] = errors.behind(layers.bound[at], error, front, kt, back, blend);

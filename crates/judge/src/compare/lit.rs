@@ -10,7 +10,7 @@
 //! not, and where layers lie over one another, the texels within reach say what share of its colour a fragment may have: the bound of the
 //! colour has them all.
 
-use edgewalk_host::light::{ambient, scale};
+use edgewalk_host::light::{ambient, left_error, scale};
 use edgewalk_host::raster::Raster;
 use edgewalk_host::reach::Reach;
 use edgewalk_machine::{Fill, Plan};
@@ -81,6 +81,11 @@ pub struct Seen {
 impl Seen {
     /// All of its colour: no light counts, or it lies behind it.
     pub const LIT: Seen = Seen { may: [false, true], shares: [1.0; 2], open: false };
+    /// This share of its colour, as golden shows it.
+    pub const fn of_share(share: f64) -> Seen {
+        Seen { shares: [share; 2], ..Seen::LIT }
+    }
+
     const OPEN: Seen = Seen { may: [true; 2], shares: [0.0, 1.0], open: true };
 
     /// Another decision that may be.
@@ -277,6 +282,14 @@ impl<'a> Lights<'a> {
 pub(crate) fn gated(frame: &Frame, lit: f64) -> f64 {
     let ambient = frame.shadows.iter().map(|shadow| shadow.ambient).fold(0.0, f64::max);
     lit.max(lit * ambient + 1.0)
+}
+
+/// How far the machine's share of a colour of which golden shows this share may be off, LSB of a colour of 1: what is left of the light
+/// behind panes is rounded at each of them (bound 15).
+pub(super) fn share_error(machine: &Plan, shadow: Option<&Shadow>, share: f64) -> f64 {
+    let Some(shadow) = shadow.filter(|_| share < 1.0) else { return 0.0 };
+    let panes = shadow.panes.len() as u32; // a file has fewer
+    left_error(panes, machine.color.bits, machine.blend.kt_bits, 0.5)
 }
 
 /// However far off, the texel is outside.
