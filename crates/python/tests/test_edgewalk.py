@@ -112,6 +112,17 @@ def test_judge_finds_what_the_program_finds(tmp_path):
     assert done.returncode == 1 and str(judged) in done.stdout, done.stdout
 
 
+def test_judge_takes_polygons_whole():
+    path, polygons = ROOT / "docs/scenes/depth.tri", 0
+    for engine, against in [("golden", "golden"), ("fast", "golden"), ("fast", "machine")]:
+        drawn = edgewalk.raster(path, engine=engine)
+        given = {"z": drawn.z, "rgb": drawn.rgb, "coverage": drawn.coverage, "id": drawn.id}
+        judged = edgewalk.judge(path, **given, against=against)
+        assert judged.passed, str(judged)
+        polygons += (drawn.id == 2).sum()
+    assert polygons > 0
+
+
 NAN = triangles(1)
 NAN[0, 0, 0] = np.nan
 WRONG = [

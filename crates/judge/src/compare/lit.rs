@@ -81,7 +81,7 @@ pub struct Seen {
 impl Seen {
     /// All of its colour: no light counts, or it lies behind it.
     pub const LIT: Seen = Seen { may: [false, true], shares: [1.0; 2], open: false };
-    /// This share of its colour, as golden shows it.
+    /// A fragment that has this share of its colour, as golden shows it.
     pub const fn of_share(share: f64) -> Seen {
         Seen { shares: [share; 2], ..Seen::LIT }
     }
