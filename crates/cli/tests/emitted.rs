@@ -2,6 +2,7 @@
 #![allow(clippy::unwrap_used)] // a test that unwraps nothing reports it
 
 use crate::support::run;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
 fn edgewalk(folder: &Path, arguments: &[&str]) {
@@ -46,4 +47,93 @@ fn comments_of_kind_name_the_codes_compared() {
             assert_eq!(told.contains("0 or 3 triangle"), !lines, "{machine:?}: {told}");
         }
     }
+}
+
+/// On 48 x 40 pixels, one over the other and over a side of the screen.
+const TRIANGLES: &str = "size 48 40\n\
+    T 2 2 0.2 1 0 0 0  40 12 0.5 0 1 0 0  4 35 0.8 0 0 1 0\n\
+    T 3 3 0.1 1 0 0 0  60 14 0.4 0 1 0 0  5 36 0.7 0 0 1 0\n\
+    T 40 3 0.9 1 0 0 0  47 20 0.4 0 1 0 0  -15 36 0.7 0 0 1 0\n";
+
+/// The names of causes in a part of a sentence, in any list.
+fn causes(part: &str) -> BTreeSet<&str> {
+    part.split([',', ' ']).filter(|word| !["", "and"].contains(word)).collect()
+}
+
+/// In a trace PIXEL's `advance` is 0 in the causes that the comment calls stalls, and in no other. It is `active` in the
+/// causes in which the comment has PIXEL step, and in no other cause that is no stall.
+#[test]
+fn comments_of_causes_tell_when_pixel_stalls() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    std::fs::write(folder.join("in.tri"), TRIANGLES).unwrap();
+    let small = ["screen.width=48", "screen.height=40", "screen.guard_bits=7"];
+    let small: Vec<&str> = small.iter().flat_map(|key| ["--set", key]).collect();
+    let (mut cycles, mut met) = (0, BTreeSet::new());
+    for (input, keys) in [
+        (&["in.tri"][..], &["--set", "shadow.light=parallel"][..]),
+        (
+            &["in.tri"],
+            &["--machine", "textbook", "--set", "memory.hazard=drain", "--set", "memory.latency=8"],
+        ),
+        (&["in.tri"], &["--set", "fifo.inflight=1", "--set", "memory.latency=8"]),
+        (&["sphere", "--shading", "phong", "--triangles", "20"], &["--set", "shade.kind=phong"]),
+    ] {
+        let keys = [&small[..], keys].concat();
+        emit(folder, &keys);
+        let top = text(folder, "hdl/edgewalk.v");
+        let told = top.split_once("// PIXEL steps in ").expect("a comment").1.split_once('.').unwrap().0;
+        let (steps, stalls) = told.split_once(", and stalls in ").unwrap();
+        let (steps, stalls) = (causes(steps), causes(stalls));
+        let all = top.split_once("the single cause of the cycle: ").unwrap().1.split_once(".\n").unwrap().0;
+        let all: Vec<&str> = all.split(' ').collect();
+        let name: BTreeMap<u64, &str> =
+            all.chunks(2).map(|code| (code[0].parse().unwrap(), code[1])).collect();
+        assert!(steps.iter().chain(&stalls).all(|cause| name.values().any(|name| name == cause)), "{told}");
+
+        edgewalk(folder, &[&["trace", "--quiet", "--out", "t.vcd"], input, &keys].concat());
+        for values in cycles_of(&text(folder, "t.vcd"), &["activity", "u_pixel_advance", "u_pixel_active"]) {
+            let [activity, advance, active] = values[..] else { panic!("three signals") };
+            let cause = name[&activity];
+            assert_eq!(advance == 0, stalls.contains(cause), "{keys:?}: {cause}: {told}");
+            if advance == 1 {
+                assert_eq!(active == 1, steps.contains(cause), "{keys:?}: {cause}: {told}");
+            }
+            met.insert(cause.to_owned());
+            cycles += 1;
+        }
+    }
+    println!("{cycles} cycles, causes {met:?}");
+    let needed = ["draw", "offscreen", "hazard", "queue", "edge", "setup", "flush", "idle"];
+    assert!(cycles > 1000 && needed.iter().all(|cause| met.contains(*cause)), "{cycles} cycles, {met:?}");
+}
+
+/// For each clock of a waveform the values of these signals of the machine, at the end of the clock.
+fn cycles_of(vcd: &str, names: &[&str]) -> Vec<Vec<u64>> {
+    let (header, changes) = vcd.split_once("$enddefinitions $end").unwrap();
+    let id = |name: &&str| {
+        // The machine's own signal is the first of that name.
+        let line = header.lines().find(|line| line.contains(&format!(" {name} $end")));
+        line.unwrap_or_else(|| panic!("no {name}")).split_whitespace().nth(3).unwrap().to_owned()
+    };
+    let ids: Vec<String> = names.iter().map(id).collect();
+    let (mut values, mut found, mut known) = (vec![0; names.len()], Vec::new(), false);
+    for line in changes.lines() {
+        if let Some(time) = line.strip_prefix('#') {
+            // A clock lasts 10 ns and begins with its rising edge; its values stand until the next one.
+            if known && time.parse::<u64>().unwrap() % 10 == 0 {
+                found.push(values.clone());
+            }
+            known = true;
+            continue;
+        }
+        let (value, id) = match line.strip_prefix('b') {
+            Some(word) => word.split_once(' ').unwrap(),
+            None => line.split_at_checked(1).unwrap_or_default(),
+        };
+        if let Some(place) = ids.iter().position(|known| known == id) {
+            values[place] = u64::from_str_radix(value, 2).unwrap_or(0);
+        }
+    }
+    found
 }
