@@ -137,3 +137,42 @@ fn cycles_of(vcd: &str, names: &[&str]) -> Vec<Vec<u64>> {
     }
     found
 }
+
+/// EDGE's header tells when a triangle is taken: before its first line, or behind its last. Its vectors show which.
+#[test]
+fn comments_of_edge_tell_when_triangles_are_taken() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    let mut checked = 0;
+    for (machine, stays) in [("default", false), ("hx8k", true), ("up5k", true)] {
+        emit(folder, &["--machine", machine]);
+        let edge = text(folder, "hdl/edgewalk_edge.v");
+        let before = "the first line is valid in the cycle after the triangle was taken";
+        let behind = "The triangle is taken behind its last line";
+        assert_eq!((edge.contains(before), edge.contains(behind)), (!stays, stays), "{machine}");
+        // An increment is a register of EDGE, or a wire from the port.
+        assert_eq!(edge.contains("assign inc_z = prim_z_g;"), stays, "{machine}");
+        assert_eq!(edge.contains("inc, held for PIXEL"), !stays, "{machine}");
+
+        let out = format!("{machine}_v");
+        let vectors = ["vectors", "--machine", machine, "--suite", "corners", "--unit", "edge", "--quiet"];
+        edgewalk(folder, &[&vectors[..], &["--out", &out]].concat());
+        let cycles = |file: &str| -> BTreeMap<u64, Vec<u64>> {
+            let mut of_triangle: BTreeMap<u64, Vec<u64>> = BTreeMap::new();
+            for row in text(folder, &format!("{out}/corners_edge/{file}.csv")).lines().skip(1) {
+                let number = |column: usize| row.split(',').nth(column).unwrap().parse().unwrap();
+                of_triangle.entry(number(2)).or_default().push(number(1));
+            }
+            of_triangle
+        };
+        let (prims, lines) = (cycles("prim"), cycles("line"));
+        for (triangle, lines) in &lines {
+            let taken = prims[triangle][0];
+            let (first, last) = (lines[0], lines[lines.len() - 1]);
+            assert!(if stays { taken > last } else { taken < first }, "{machine}: triangle {triangle}");
+            checked += 1;
+        }
+    }
+    println!("{checked} triangles");
+    assert!(checked > 30, "{checked}");
+}
