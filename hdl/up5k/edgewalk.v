@@ -19,7 +19,7 @@ module edgewalk (
   input  wire        rst,
 
   input  wire        in_valid,
-  input  wire [15:0] in_data,      // x, y and the channels' values of vertex 0, 1, 2, in its low bits
+  input  wire [15:0] in_data,      // 18 words a triangle, each in the low bits. Of vertex 0, 1, 2 in turn: x y (Q9.3 px), z (UQ16.0 LSB), r g b (UQ5.0 LSB)
   input  wire  [2:0] depth_func,   // new ? old: 0 never 1 less 2 equal 3 lequal 4 greater 5 notequal 6 gequal 7 always
   input  wire        depth_write,  // write depths of fragments that pass
   input  wire        rd_ready,

@@ -176,3 +176,54 @@ fn comments_of_edge_tell_when_triangles_are_taken() {
     println!("{checked} triangles");
     assert!(checked > 30, "{checked}");
 }
+
+/// The comment of the word port tells the number of words, and of each the format that the port for whole triangles has.
+#[test]
+fn comments_of_words_tell_number_and_formats() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    let mut checked = 0;
+    for keys in [&[][..], &["blend.kind=constant"], &["channels.extra=2", "channels.e0_kind=signed"]] {
+        let keys: Vec<&str> = keys.iter().flat_map(|key| ["--set", key]).collect();
+        emit(folder, &keys);
+        // A port `tri_z0 // UQ24.4 LSB, depth of vertex 0` is a word.
+        let whole = text(folder, "hdl/edgewalk.v");
+        let ports = whole.lines().filter_map(|line| line.split_once(" tri_")?.1.split_once(','));
+        let ports: Vec<(&str, &str)> = ports.filter(|(name, _)| !["valid", "ready"].contains(name)).collect();
+        let formats = |part: &mut dyn Iterator<Item = &(&str, &str)>| -> Vec<String> {
+            let word = |(name, told): &(&str, &str)| {
+                let format = told.split_once("// ").unwrap().1.split(',').next().unwrap();
+                format!("{}: {format}", name[..name.len() - 1].trim_end_matches('_'))
+            };
+            part.map(word).collect()
+        };
+        let of_vertex = formats(&mut ports.iter().filter(|(name, _)| name.ends_with('0')));
+
+        emit(folder, &[&["--set", "setup.kind=sequenced"][..], &keys].concat());
+        let [top, setup] = ["edgewalk", "edgewalk_setup"].map(|name| text(folder, &format!("hdl/{name}.v")));
+        let told = comment(&top, "in_data");
+        assert_eq!(told, comment(&setup, "in_data"));
+        assert!(told.starts_with(&format!("{} words a triangle", ports.len())), "{told}");
+        let runs = told.split_once("in turn: ").unwrap().1.split(". ").next().unwrap();
+        let mut words = Vec::new();
+        for run in runs.split("), ") {
+            let (names, format) = run.trim_end_matches(')').split_once(" (").unwrap();
+            words.extend(names.split(' ').map(|name| format!("{name}: {format}")));
+        }
+        assert_eq!(words, of_vertex, "{told}");
+        assert_eq!(told.contains("Then kt"), ports.iter().any(|(name, _)| *name == "kt"), "{told}");
+        checked += words.len();
+    }
+    println!("{checked} words");
+    assert!(checked >= 20, "{checked}");
+
+    // The bench's manifest says the same, and rounds to the formats of a link that the machine has.
+    let vectors = ["vectors", "--machine", "hx8k", "--suite", "corners", "--unit", "setup"];
+    edgewalk(folder, &[&vectors[..], &["--quiet", "--no-csv", "--out", "v"]].concat());
+    let manifest = text(folder, "v/corners_setup/manifest.json");
+    assert!(
+        manifest
+            .contains("18 words a triangle, each in the low bits. Of vertex 0, 1, 2 in turn: x y (Q14.8 px)")
+    );
+    assert!(manifest.contains("to the formats of the words of in_data,"), "{manifest:.3000}");
+}
