@@ -9,7 +9,7 @@
 // A link ─> has valid and ready: a token moves in a cycle where both are high. valid never waits for ready.
 // A value drawn without valid is held until its reader has loaded it. One clock; rst is synchronous, active high.
 // activity is the single cause of the cycle: 0 idle 1 draw 2 offscreen 3 hazard 4 queue 5 memory 6 edge 7 setup 8 flush.
-// PIXEL stalls in every cause but draw and offscreen.
+// PIXEL steps in draw and offscreen, and stalls in hazard, queue and memory. In every other cause PIXEL has no pixel.
 
 `timescale 1ns / 1ps
 `default_nettype none
@@ -19,7 +19,7 @@ module edgewalk (
   input  wire        rst,
 
   input  wire        in_valid,
-  input  wire [27:0] in_data,      // x, y and the channels' values of vertex 0, 1, 2, in its low bits
+  input  wire [27:0] in_data,      // 18 words a triangle, each in the low bits. Of vertex 0, 1, 2 in turn: x y (Q14.8 px), z (UQ24.4 LSB), r g b (UQ8.4 LSB)
   input  wire  [2:0] depth_func,   // new ? old: 0 never 1 less 2 equal 3 lequal 4 greater 5 notequal 6 gequal 7 always
   input  wire        depth_write,  // write depths of fragments that pass
   input  wire        rd_ready,

@@ -3,12 +3,13 @@
 
 // edgewalk_edge: EDGE walks the major and the minor edge of a triangle, a line a step.
 //
-//   prim ─> [major C R-f q f M] ── cmaj ─────┐
-//           [minor C R-f q f M] ── cmin ─────┼─> line
-//           [a value a channel] ─ by carry ──┘
-//           [g of each channel] ───────────────> inc, held for PIXEL
+//   prim ─┬> [major C R-f] ──────── cmaj ─────┐
+//         ├> [minor C R-f q f M] ── cmin ─────┼─> line
+//         ├> [a value a channel] ─ by carry ──┘
+//         └─ g of each channel ─────────────────> inc, not held here
 //
-// Timing: the first line is valid in the cycle after the triangle was taken, then one line a clock while line_ready.
+// Timing: the first line is valid in the cycle after an idle EDGE sees prim_valid, then one line a clock while line_ready.
+// The triangle is taken behind its last line, when PIXEL has its increments. Until then prim stays, and EDGE reads it.
 // Rules: a step takes f from R; where R is too small M is added back and the column goes one further (carry).
 // R - f is what is kept, so that its sign says whether the step carries, and no step waits for a subtraction to know it.
 // The columns are not cut to the screen here: SPAN does that.
@@ -57,7 +58,7 @@ module edgewalk_edge (
   input  wire [21:0] prim_b_d1,         // UQ8.14 LSB, modular, step to the next line, edge with carry
   input  wire [21:0] prim_b_g,          // UQ8.14 LSB, modular, step to the next pixel of the span
   input  wire        line_ready,
-  input  wire        fresh_queued,      // the triangle before has not reached PIXEL yet
+  input  wire        fresh_queued,      // the triangle that is walked has not reached PIXEL yet
 
   output wire        prim_ready,
   output wire        line_valid,
@@ -77,7 +78,7 @@ module edgewalk_edge (
   output wire [21:0] inc_b              // UQ8.14 LSB, modular, increment of blue a pixel along the span; stays until the next prim fires
 );
 
-  // A triangle is taken when it is walked and PIXEL has its increments; until then EDGE reads SETUP's registers.
+  // A triangle begins while it is offered, and is taken when it is walked and PIXEL has its increments.
   reg running;
   reg last;    // last line of all
   wire step = running && line_ready;

@@ -19,7 +19,7 @@ module edgewalk_setup (
   input  wire        rst,
 
   input  wire        in_valid,
-  input  wire [27:0] in_data,           // x, y and the channels' values of vertex 0, 1, 2, in its low bits
+  input  wire [27:0] in_data,           // 18 words a triangle, each in the low bits. Of vertex 0, 1, 2 in turn: x y (Q14.8 px), z (UQ24.4 LSB), r g b (UQ8.4 LSB)
   input  wire        prim_ready,
 
   output wire        in_ready,

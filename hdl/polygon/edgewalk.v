@@ -9,7 +9,7 @@
 // A link ─> has valid and ready: a token moves in a cycle where both are high. valid never waits for ready.
 // A value drawn without valid is held until its reader has loaded it. One clock; rst is synchronous, active high.
 // activity is the single cause of the cycle: 0 idle 1 draw 2 offscreen 3 hazard 4 queue 5 memory 6 edge 7 setup 8 flush.
-// PIXEL stalls in every cause but draw and offscreen.
+// PIXEL steps in draw and offscreen, and stalls in hazard, queue and memory. In every other cause PIXEL has no pixel.
 
 `timescale 1ns / 1ps
 `default_nettype none
@@ -37,7 +37,7 @@ module edgewalk (
   input  wire [11:0] tri_r2,       // UQ8.4 LSB, red of vertex 2
   input  wire [11:0] tri_g2,       // UQ8.4 LSB, green of vertex 2
   input  wire [11:0] tri_b2,       // UQ8.4 LSB, blue of vertex 2
-  input  wire  [1:0] tri_kind,     // 0 triangle, 1 edges, 2 edges and plane, 3 line
+  input  wire  [1:0] tri_kind,     // 0 or 3 triangle, 1 edges, 2 edges and plane
   input  wire  [2:0] tri_sides,    // of kinds 1 and 2: sides 0-1, 1-2 and 2-0 are edges, a bit each
   input  wire  [9:0] tri_start_x,  // column of the pixel at which values start
   input  wire  [8:0] tri_start_y,  // its line, the first that is drawn

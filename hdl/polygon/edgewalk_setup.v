@@ -40,7 +40,7 @@ module edgewalk_setup (
   input  wire [11:0] tri_r2,            // UQ8.4 LSB, red of vertex 2
   input  wire [11:0] tri_g2,            // UQ8.4 LSB, green of vertex 2
   input  wire [11:0] tri_b2,            // UQ8.4 LSB, blue of vertex 2
-  input  wire  [1:0] tri_kind,          // 0 triangle, 1 edges, 2 edges and plane, 3 line
+  input  wire  [1:0] tri_kind,          // 0 or 3 triangle, 1 edges, 2 edges and plane
   input  wire  [2:0] tri_sides,         // of kinds 1 and 2: sides 0-1, 1-2 and 2-0 are edges, a bit each
   input  wire  [9:0] tri_start_x,       // column of the pixel at which values start
   input  wire  [8:0] tri_start_y,       // its line, the first that is drawn
@@ -332,7 +332,7 @@ module edgewalk_setup (
   end
 
   // The token's part in a polygon: which sides count, by the sorted vertices; and the lines of the window.
-  reg [1:0] kind;           // 0 triangle, 1 edges, 2 edges and plane, 3 line
+  reg [1:0] kind;           // 0 or 3 triangle, 1 edges, 2 edges and plane
   wire is_edges = kind == 2'd1;
   wire is_plane = kind == 2'd2;
   reg [2:0] sides;          // that count, as at the port

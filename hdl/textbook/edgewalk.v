@@ -9,7 +9,7 @@
 // A link ─> has valid and ready: a token moves in a cycle where both are high. valid never waits for ready.
 // A value drawn without valid is held until its reader has loaded it. One clock; rst is synchronous, active high.
 // activity is the single cause of the cycle: 0 idle 1 draw 2 offscreen 3 hazard 4 queue 5 memory 6 edge 7 setup 8 flush.
-// PIXEL stalls in every cause but draw and offscreen.
+// PIXEL steps in draw and offscreen, and stalls in hazard, queue and memory. In every other cause PIXEL has no pixel.
 
 `timescale 1ns / 1ps
 `default_nettype none

@@ -13,6 +13,7 @@ mod compare;
 mod demo;
 mod dither;
 mod documents;
+mod emitted;
 mod energy;
 mod estimate;
 mod explain;

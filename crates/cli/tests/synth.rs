@@ -4,6 +4,7 @@
 use crate::support;
 use crate::support::{edgewalk, names, run};
 use serde_json::Value;
+use std::collections::BTreeMap;
 use std::path::Path;
 use std::process::{Command, Output};
 
@@ -35,6 +36,27 @@ fn counted(hdl: &Path, top: &str) -> impl Fn(&str) -> u64 + use<> {
         let of = stat.lines().map(str::trim).filter(|line| line.starts_with(cell));
         of.map(|line| line.split_whitespace().last().unwrap().parse::<u64>().unwrap()).sum()
     }
+}
+
+/// When the report in this cache meets each wire of the design last on the path from register to register, in ns. Wires
+/// without an appended name and nothing else: `dut.queue.in_x[12]` is `queue.in_x`.
+fn last_met(cache: &Path) -> BTreeMap<String, f64> {
+    let steps = std::fs::read_dir(cache).unwrap().map(|step| step.unwrap().path().join("report.json"));
+    let reports: Vec<_> = steps.filter(|file| file.exists()).collect();
+    assert_eq!(reports.len(), 1, "{reports:?}");
+    let report: Value = serde_json::from_slice(&std::fs::read(&reports[0]).unwrap()).unwrap();
+    let paths = report["critical_paths"].as_array().unwrap();
+    let path = paths.iter().find(|path| path["from"] == path["to"]).unwrap();
+    let (mut found, mut ns) = (BTreeMap::new(), 0.0);
+    for segment in path["path"].as_array().unwrap() {
+        if let Some(net) = segment["net"].as_str().and_then(|net| net.strip_prefix("dut."))
+            && !net.contains("_SB_")
+        {
+            found.insert(net.split('[').next().unwrap().to_owned(), ns);
+        }
+        ns += segment["delay"].as_f64().unwrap();
+    }
+    found
 }
 
 #[test]
@@ -96,6 +118,18 @@ fn a_unit_is_counted_timed_and_kept() {
         points.len() >= 2 && points.iter().all(|point| !point["name"].as_str().unwrap().contains("SB_")),
         "{path}"
     );
+    // Its last point is its end, at the time of the whole path; none of the others is met later.
+    let times: Vec<f64> = points.iter().map(|point| point["ns"].as_f64().unwrap()).collect();
+    assert!((times[times.len() - 1] - ns).abs() < 1e-6 && times.is_sorted(), "{ns} ns: {path}");
+    // No wire stands before the time at which nextpnr's report meets it last.
+    let last_met = last_met(&folder.path().join("cache"));
+    let mut compared = 0;
+    for point in &points[..points.len() - 1] {
+        let Some(met) = last_met.get(point["name"].as_str().unwrap()) else { continue };
+        assert!(point["ns"].as_f64().unwrap() >= met - 1e-6, "{point}, met at {met} ns");
+        compared += 1;
+    }
+    assert!(compared >= 1, "{path}");
 
     // Again: all of it, without a run of a tool.
     let again = report(folder.path(), &arguments);

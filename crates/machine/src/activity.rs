@@ -122,10 +122,17 @@ impl Activity {
         ][self as usize]
     }
 
-    /// PIXEL steps in such a cycle; in all others it stalls.
+    /// PIXEL steps in such a cycle.
     #[must_use]
     pub fn is_busy(self) -> bool {
         matches!(self, Activity::Draw | Activity::Offscreen)
+    }
+
+    /// PIXEL stalls in such a cycle: a fragment waits at its output. In a cycle neither busy nor a stall PIXEL has no pixel.
+    #[must_use]
+    pub fn is_stall(self) -> bool {
+        use Activity::{Blend, Hazard, Light, Memory, Project, Queue, Shade, Texel};
+        matches!(self, Hazard | Queue | Memory | Blend | Light | Shade | Texel | Project)
     }
 
     /// The codes of a machine in words, for the port's documentation: `0 idle 1 draw …`.
@@ -133,5 +140,17 @@ impl Activity {
     pub fn codes(plan: &Plan) -> String {
         let each = Activity::of(plan).map(|a| format!("{} {}", a as u8, a.name()));
         each.collect::<Vec<_>>().join(" ")
+    }
+
+    /// In which causes of a machine PIXEL steps, stalls, or has no pixel, in words.
+    #[must_use]
+    pub fn of_pixel(plan: &Plan) -> String {
+        let names = |of: fn(Activity) -> bool| {
+            let mut names: Vec<_> = Activity::of(plan).filter(|a| of(*a)).map(Activity::name).collect();
+            let last = names.pop().unwrap_or_default(); // every machine has causes of both kinds
+            format!("{} and {last}", names.join(", "))
+        };
+        let (steps, stalls) = (names(Activity::is_busy), names(Activity::is_stall));
+        format!("PIXEL steps in {steps}, and stalls in {stalls}. In every other cause PIXEL has no pixel.")
     }
 }

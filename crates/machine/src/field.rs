@@ -78,6 +78,17 @@ impl Field {
     pub fn width(&self) -> u32 {
         self.format.width()
     }
+
+    /// Format and unit; nothing for whole numbers without sign.
+    pub(crate) fn bits(&self) -> String {
+        match self.scale {
+            Scale::Count if self.format.is_signed() => "signed".to_owned(),
+            Scale::Count => String::new(),
+            Scale::Of(unit) => format!("{} {unit}", self.format),
+            Scale::Modular(unit) => format!("{} {unit}, modular", self.format),
+            Scale::Unorm => format!("unorm{}", self.width()),
+        }
+    }
 }
 
 /// Whole numbers of so many bits; widths follow from checked keys and are 1 to 120.
@@ -88,13 +99,7 @@ fn whole(signed: bool, bits: u32) -> Format {
 /// Format and unit, then the meaning: `UQ8.14 LSB, modular, to the next pixel of the span`.
 impl fmt::Display for Field {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let format = match self.scale {
-            Scale::Count if self.format.is_signed() => "signed".to_owned(),
-            Scale::Count => String::new(),
-            Scale::Of(unit) => format!("{} {unit}", self.format),
-            Scale::Modular(unit) => format!("{} {unit}, modular", self.format),
-            Scale::Unorm => format!("unorm{}", self.width()),
-        };
+        let format = self.bits();
         let gap = if format.is_empty() || self.doc.is_empty() { "" } else { ", " };
         write!(f, "{format}{gap}{}", self.doc)
     }

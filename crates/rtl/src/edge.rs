@@ -16,24 +16,40 @@ use side::{major, minor};
 use values::{Choices, values};
 use walk::{Links, Walk};
 
-const DOC: &str = "EDGE walks the major and the minor edge of a triangle, a line a step.
+const WALKS: &str = "EDGE walks the major and the minor edge of a triangle, a line a step.";
 
-  prim ─> [major C R-f q f M] ── cmaj ─────┐
+/// Behind a SETUP whose registers take the next triangle while EDGE walks this one.
+const MOVING: &str = "  prim ─> [major C R-f q f M] ── cmaj ─────┐
           [minor C R-f q f M] ── cmin ─────┼─> line
           [a value a channel] ─ by carry ──┘
           [g of each channel] ───────────────> inc, held for PIXEL
 
-Timing: the first line is valid in the cycle after the triangle was taken, then one line a clock while line_ready.
-Rules: a step takes f from R; where R is too small M is added back and the column goes one further (carry).
+Timing: the first line is valid in the cycle after the triangle was taken, then one line a clock while line_ready.";
+
+/// Behind a SETUP whose registers keep the triangle while EDGE walks it.
+const STAYING: &str = "  prim ─┬> [major C R-f] ──────── cmaj ─────┐
+        ├> [minor C R-f q f M] ── cmin ─────┼─> line
+        ├> [a value a channel] ─ by carry ──┘
+        └─ g of each channel ─────────────────> inc, not held here
+
+Timing: the first line is valid in the cycle after an idle EDGE sees prim_valid, then one line a clock while line_ready.
+The triangle is taken behind its last line, when PIXEL has its increments. Until then prim stays, and EDGE reads it.";
+
+const RULES: &str = "Rules: a step takes f from R; where R is too small M is added back and the column goes one further (carry).
 R - f is what is kept, so that its sign says whether the step carries, and no step waits for a subtraction to know it.
 The columns are not cut to the screen here: SPAN does that.";
+
+fn doc(plan: &Plan) -> String {
+    let walk = if plan.is_sequenced() { STAYING } else { MOVING };
+    format!("{WALKS}\n\n{walk}\n{RULES}")
+}
 
 /// The netlist of EDGE.
 ///
 /// # Errors
 /// None for a machine that [`edgewalk_machine::Machine::plan`] accepts.
 pub fn edge(plan: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
-    let m = Module::new("edgewalk_edge", DOC);
+    let m = Module::new("edgewalk_edge", &doc(plan));
     let ports = Interface::new(&m, (SPEC.ports)(plan));
     let (prim_valid, prim) = ports.takes();
     let line_ready = ports.gives_ready();

@@ -97,8 +97,9 @@ fn doc(plan: &Plan, units: &[(&UnitSpec, Arc<Netlist>)]) -> String {
 A link ─> has valid and ready: a token moves in a cycle where both are high. valid never waits for ready.
 A value drawn without valid is held until its reader has loaded it. One clock; rst is synchronous, active high.
 activity is the single cause of the cycle: {}.
-PIXEL stalls in every cause but draw and offscreen.",
+{}",
         picture::picture(&ports),
-        Activity::codes(plan)
+        Activity::codes(plan),
+        Activity::of_pixel(plan)
     )
 }

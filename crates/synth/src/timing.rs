@@ -17,7 +17,8 @@ pub struct CriticalPath {
     pub lut4: usize,
     /// Bits of carry it goes through.
     pub carry: usize,
-    /// Wires of the path in order, from the output of the first register to the last register, each change of name once.
+    /// Names of the path in order, from the output of the first register to the cell with the last register. Side by side no
+    /// name stands twice. The last is the end, at the time of the whole path.
     pub points: Vec<Point>,
 }
 
@@ -26,7 +27,7 @@ pub struct CriticalPath {
 pub struct Point {
     /// The wire or register, `unit.name`; for a wire that nobody has named, the one it was named after.
     pub name: String,
-    /// Nanoseconds from the clock to here.
+    /// Nanoseconds from the clock to where the path last meets the name, before another one.
     pub ns: f64,
 }
 
@@ -89,17 +90,18 @@ fn summary(seed: u32, segments: &[Segment]) -> CriticalPath {
     };
     let mut points: Vec<Point> = Vec::new();
     let mut ns = 0.0;
-    let mut reach = |name: Option<String>, ns: f64| {
-        if let Some(name) = name.filter(|name| points.last().is_none_or(|last| last.name != *name)) {
-            points.push(Point { name, ns });
-        }
+    let mut reach = |name: String, ns: f64| match points.last_mut() {
+        Some(last) if last.name == name => last.ns = ns,
+        _ => points.push(Point { name, ns }),
     };
     for segment in segments {
         // A wire is reached where its driver is, before its own delay.
-        reach(segment.net.as_deref().and_then(named_after), ns);
+        segment.net.as_deref().and_then(named_after).into_iter().for_each(|name| reach(name, ns));
         ns += segment.delay;
     }
-    reach(segments.last().and_then(|last| named_after(&last.to.cell)), ns);
+    if let Some(Segment { to: Pin { cell, .. }, .. }) = segments.last() {
+        reach(named_after(cell).unwrap_or_else(|| cell.clone()), ns);
+    }
     CriticalPath {
         seed,
         logic_ns: total(false),
@@ -141,6 +143,37 @@ mod tests {
         assert_eq!(points, [("edge.minor_c", 0.5), ("span.line_ready", 2.0), ("edge.n", 4.125)]);
         assert_eq!((mhz, path.seed, path.lut4, path.carry), (242.42, 4, 1, 1));
         assert_eq!((path.logic_ns, path.routing_ns), (1.125, 3.0));
+    }
+
+    /// A comparison whose carry bears the name of its result: nextpnr packs the result's table with the register behind it.
+    #[test]
+    fn a_name_has_its_last_time() {
+        let segment = |kind: &str, delay: f64, net: Option<&str>, cell: &str| Segment {
+            r#type: kind.to_owned(),
+            delay,
+            net: net.map(str::to_owned),
+            to: Pin { cell: cell.to_owned(), port: "I3".to_owned() },
+        };
+        let carry = "dut.outside_SB_LUT4_O_I3_SB_CARRY_CO_LC";
+        let mut path = vec![
+            segment("clk-to-q", 0.5, None, "harness_in_line_cmaj_SB_DFF_Q_DFFLC"),
+            segment("routing", 1.5, Some("harness_in_line_cmaj[0]"), carry),
+            segment("routing", 8.0, Some("dut.outside_SB_LUT4_O_I3[1]"), carry),
+            segment("routing", 4.0, Some("dut.outside_SB_LUT4_O_I3[2]"), "dut.outside_SB_LUT4_O_LC"),
+            segment("setup", 0.25, None, "dut.outside_SB_LUT4_O_LC"),
+        ];
+        let points = |path: &[Segment]| -> Vec<(String, f64)> {
+            summary(1, path).points.into_iter().map(|point| (point.name, point.ns)).collect()
+        };
+        let named = |names: &[(&str, f64)]| -> Vec<(String, f64)> {
+            names.iter().map(|(name, ns)| ((*name).to_owned(), *ns)).collect()
+        };
+        assert_eq!(points(&path), named(&[("input line_cmaj", 0.5), ("outside", 14.25)]));
+
+        // The end is there whatever the tools call its cell.
+        path.push(segment("setup", 0.25, None, "$nextpnr_ICESTORM_LC_3"));
+        let end = ("$nextpnr_ICESTORM_LC_3", 14.5);
+        assert_eq!(points(&path), named(&[("input line_cmaj", 0.5), ("outside", 10.0), end]));
     }
 
     #[test]

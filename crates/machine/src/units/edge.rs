@@ -19,6 +19,8 @@ pub const SPEC: UnitSpec = UnitSpec {
 };
 
 fn ports(plan: &Plan) -> Ports {
+    // A triangle that stays at the port while it is walked waits for its own increments to be loaded.
+    let of = if plan.is_sequenced() { "that is walked" } else { "before" };
     Ports {
         takes: Some(Link::new("prim", tokens::prim(plan))),
         gives: Some(Link::new("line", tokens::line(plan))),
@@ -28,7 +30,7 @@ fn ports(plan: &Plan) -> Ports {
             beside: "line",
             until: Until::Taken,
         }],
-        levels: vec![Field::count("fresh_queued", 1, "the triangle before has not reached PIXEL yet")],
+        levels: vec![Field::count("fresh_queued", 1, format!("the triangle {of} has not reached PIXEL yet"))],
         ..Ports::default()
     }
 }

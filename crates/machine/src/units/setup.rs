@@ -33,8 +33,24 @@ fn words(plan: &Plan) -> Link {
         .into_iter()
         .partition(|field| ["thin", "flat", "tag"].contains(&field.name.as_str()));
     let bits = words.iter().map(Field::width).max().unwrap_or(1); // never empty
-    let data = Field::count("data", bits, "x, y and the channels' values of vertex 0, 1, 2, in its low bits");
+    let data = Field::count("data", bits, listed(plan, &words));
     Link { words, ..Link::new("in", std::iter::once(data).chain(beside).collect()) }
+}
+
+/// How many words a triangle has, and which, with their formats. Words side by side of one format share it.
+fn listed(plan: &Plan, words: &[Field]) -> String {
+    let names: Vec<&str> = ["x", "y"].into_iter().chain(plan.channels().iter().map(|c| c.name)).collect();
+    let mut runs: Vec<(String, Vec<&str>)> = Vec::new();
+    for (name, word) in names.iter().copied().zip(words) {
+        match runs.last_mut() {
+            Some((format, names)) if *format == word.bits() => names.push(name),
+            _ => runs.push((word.bits(), vec![name])),
+        }
+    }
+    let runs: Vec<_> = runs.iter().map(|(format, names)| format!("{} ({format})", names.join(" "))).collect();
+    let behind: Vec<_> = words[3 * names.len()..].iter().map(|w| format!(". Then {w}")).collect();
+    let (count, each, behind) = (words.len(), runs.join(", "), behind.concat());
+    format!("{count} words a triangle, each in the low bits. Of vertex 0, 1, 2 in turn: {each}{behind}")
 }
 
 events! {

@@ -50,7 +50,7 @@ pub fn triangle(plan: &Plan) -> Vec<Field> {
     fields.extend(triangle_kt(plan));
     if plan.polygon.is_there() {
         fields.extend([
-            Field::count("kind", 2, "0 triangle, 1 edges, 2 edges and plane, 3 line"),
+            Field::count("kind", 2, kinds(plan)),
             Field::count("sides", 3, "of kinds 1 and 2: sides 0-1, 1-2 and 2-0 are edges, a bit each"),
         ]);
         fields.extend(start_pixel(plan));
@@ -62,6 +62,16 @@ pub fn triangle(plan: &Plan) -> Vec<Field> {
     }
     fields.extend(tag(plan));
     fields
+}
+
+/// The codes of `kind` in words, in a machine with POLY.
+#[must_use]
+pub fn kinds(plan: &Plan) -> &'static str {
+    if plan.polygon.has_lines() {
+        "0 triangle, 1 edges, 2 edges and plane, 3 line"
+    } else {
+        "0 or 3 triangle, 1 edges, 2 edges and plane"
+    }
 }
 
 /// The pixel at which values start, in a machine with POLY.

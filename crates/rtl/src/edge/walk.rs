@@ -107,7 +107,7 @@ impl<'m> Start<'m> {
     /// A triangle stays at the port while it is walked: SETUP keeps what does not step.
     fn staying(m: &'m Module, links: &Links<'m>) -> Start<'m> {
         let Links { prim_valid, line_ready, fresh_queued } = *links;
-        m.comment("A triangle is taken when it is walked and PIXEL has its increments; until then EDGE reads SETUP's registers.");
+        m.comment("A triangle begins while it is offered, and is taken when it is walked and PIXEL has its increments.");
         let running = m.reg("running", 1).reset(0);
         let last = m.reg("last", 1).doc("last line of all");
         let step = (running.q() & line_ready).named("step");

@@ -1,6 +1,7 @@
 //! What the three vertices are to a polygon, in a machine with POLY, and the window of lines that is drawn.
 
 use edgewalk_machine::Plan;
+use edgewalk_machine::units::tokens;
 use edgewalk_netlist::{Module, Signal};
 
 use super::control::Control;
@@ -42,11 +43,7 @@ impl<'m> Polygon<'m> {
         let feedback = control.feedback.polygon.as_ref()?;
         m.comment("The token's part in a polygon: which sides count, by the sorted vertices; and the lines of the window.");
         let take = control.sequence.take;
-        let kind = m
-            .reg("kind", 2)
-            .doc("0 triangle, 1 edges, 2 edges and plane, 3 line")
-            .when(take, triangle["kind"])
-            .q();
+        let kind = m.reg("kind", 2).doc(tokens::kinds(plan)).when(take, triangle["kind"]).q();
         let is = |kind_of: Kind| kind.eq(kind_of as i32);
         let (edges, plane) = (is(Kind::Edges).named("is_edges"), is(Kind::Plane).named("is_plane"));
         let sides = m.reg("sides", 3).doc("that count, as at the port").when(take, triangle["sides"]).q();

@@ -15,6 +15,7 @@ use crate::manifest::{
 use crate::reach::{not_covered, reached};
 use crate::suites::Suite;
 use edgewalk_lockstep::{Direction, Interface, Link, Port, StatusPort};
+use edgewalk_machine::Plan;
 use edgewalk_machine::keys::KEYS;
 use sha2::{Digest, Sha256};
 use std::collections::BTreeMap;
@@ -45,7 +46,7 @@ pub(super) fn manifest(
         module: interface.unit.module(),
         dut: wiring.map(|wiring| dut::info(interface, wiring)),
         handshake: handshake(interface, wiring),
-        rounding: ROUNDING.map(str::to_owned).to_vec(),
+        rounding: rounding(&trace.plan),
         constants: constants.map(|(field, value)| (field.name.clone(), *value as u64)).collect(), // a few bits
         stalls: stalls(trace),
         memories: memories(trace),
@@ -92,12 +93,18 @@ fn suite_info(suite: &Suite) -> SuiteInfo {
     }
 }
 
-const ROUNDING: [&str; 4] = [
-    "vertices: half to even to the formats of tri, by whoever made the triangles",
-    "setup: floor(x + 1/2) for increments and first values, floor and remainder for exact edges",
-    "interpolation: none, words are modular",
-    "outputs: floor to b bits; first values already hold half an LSB",
-];
+/// Where numbers are rounded, and how.
+fn rounding(plan: &Plan) -> Vec<String> {
+    let formats = if plan.is_sequenced() { "the words of in_data" } else { "tri" };
+    let vertices =
+        format!("vertices: half to even to the formats of {formats}, by whoever made the triangles");
+    let others = [
+        "setup: floor(x + 1/2) for increments and first values, floor and remainder for exact edges",
+        "interpolation: none, words are modular",
+        "outputs: floor to b bits; first values already hold half an LSB",
+    ];
+    std::iter::once(vertices).chain(others.map(str::to_owned)).collect()
+}
 
 /// Clock and reset of our own design.
 fn ours() -> (String, String) {
