@@ -56,6 +56,7 @@ mod results;
 mod scenes;
 mod sentences;
 mod setup_report;
+mod shaded_files;
 mod shading;
 mod shadows;
 mod size;
