@@ -263,6 +263,30 @@ fn gates_of_the_text_are_those_of_the_json() {
     assert_eq!(unit["est_kge"]["value"], rows[0]["est_kge_by_unit"]["pixel"]);
 }
 
+/// A sequenced SETUP has its memories in blocks; what lies in look-up tables is none of them.
+#[test]
+fn blocks_of_the_machine_are_left_to_no_memory() {
+    let screen = "screen.width=256,screen.height=112,formats.z_bits=16,formats.color_bits=5";
+    let machines = [format!("hx8k,{screen}"), format!("small,{screen}")];
+    let words = [&machines[0], &machines[1], "--family", "ecp5", "--fits", "ecp5-25"];
+    let found = estimates(&words);
+    let mut held = Vec::new();
+    for machine in &found {
+        let fits = &machine["fits"][0];
+        let text = fits["text"].as_str().unwrap();
+        let own: u64 =
+            text.split(" cells of 24288, ").nth(1).unwrap().split(' ').next().unwrap().parse().unwrap();
+        assert!(text.contains(&format!("{own} blocks of 56")), "{text}");
+        assert!(own <= machine["est_ram"].as_u64().unwrap(), "{machine}");
+        let memories = fits["memories"].as_array().unwrap().iter();
+        let by: u64 = memories.filter_map(|memory| memory["held_by"]["count"].as_u64()).sum();
+        assert!(own + by <= 56, "{text}");
+        held.push((own, by));
+    }
+    // Depth and colour take 28 blocks each: beside the 15 of the sequenced machine one of them.
+    assert_eq!(held, [(15, 28), (0, 56)]);
+}
+
 #[test]
 fn malformed_estimates_are_refused() {
     let folder = tempfile::tempdir().unwrap();
@@ -280,6 +304,7 @@ fn malformed_estimates_are_refused() {
         (&["estimate", "--family", "osu018", "--unit", "sapn"], "nearest: span"),
         (&["calibrate", "--family", "ice4"], "nearest: ice40"),
         (&["calibrate", "--machines", "none.txt"], "none.txt"),
+        (&["calibrate", "--count", "0"], "or give --machines FILE --data FILE --fit FILE"),
     ] {
         let (code, said) = run(folder.path(), words);
         assert!(code == Some(2) && said.contains(why), "{words:?}: {said}");

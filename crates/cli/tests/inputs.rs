@@ -265,6 +265,27 @@ fn triangles_of_a_mesh_draw_its_picture() {
     assert_eq!(checked, 12);
 }
 
+/// A machine takes the screen of the file; another one that is asked for is refused, whatever draws.
+#[test]
+fn another_screen_than_the_files_is_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    std::fs::write(folder.join("a.tri"), crate::support::TRIANGLE).unwrap();
+    let mut checked = 0;
+    for engine in ["fast", "golden", "model"] {
+        for adapt in [&[][..], &["--adapt"]] {
+            let other = ["raster", "a.tri", "--engine", engine, "--out", "o", "--set", "screen.width=640"];
+            let (code, said) = run(folder, &[&other, adapt].concat());
+            let expected = "a.tri: size 64 48: the machine's screen is 640x48; add --set screen.width=64 --set screen.height=48";
+            assert!(code == Some(2) && said.contains(expected), "{engine}: {said}");
+            assert!(!folder.join("o").exists());
+            checked += 1;
+        }
+    }
+    assert_eq!(checked, 6);
+    assert_eq!(run(folder, &["raster", "a.tri", "-q", "--out", "o", "--set", "screen.width=64"]).0, Some(0));
+}
+
 #[test]
 fn messages_name_values_in_their_order() {
     let folder = tempfile::tempdir().unwrap();

@@ -58,6 +58,7 @@ mod results;
 mod scenes;
 mod sentences;
 mod setup_report;
+mod shaded_files;
 mod shading;
 mod shadows;
 mod size;

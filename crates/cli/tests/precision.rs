@@ -71,6 +71,79 @@ fn the_bits_it_asks_for_suffice_and_one_fewer_do_not() {
     assert!(explain(screens[0], false).contains("no bound: 9309 additions"));
 }
 
+/// A bound is that of `render`, or there is none where `render` has none or one of the frame.
+#[test]
+fn bounds_hold_for_what_the_machine_stores() {
+    let folder = tempfile::tempdir().unwrap();
+    let triangle = |rules: &str, kt: &str| {
+        format!("size 32 32\n{rules}T 1 1 .5 1 0 .3 {kt}  31 1 .2 0 1 .3 {kt}  1 31 .5 .5 .7 0 {kt}\n")
+    };
+    let map = "shadow 16 0.01 0.9 .5 0 0 0  0 .5 0 0  0 0 1 0  0 0 0 1\nL 0 0 0.1  9 0 0.1  0 9 0.1\n";
+    let files = [
+        ("a.tri", triangle("", "0")),
+        ("b.tri", triangle("blend 1\n", "0.3")),
+        ("s.tri", triangle(map, "0")),
+        ("p.tri", triangle("", "0").replace("T ", "P 3 ")),
+    ];
+    for (name, text) in &files {
+        std::fs::write(folder.path().join(name), text).unwrap();
+    }
+    let perspective = "shadow.light=perspective";
+    let cases: [(&str, &str, &[&str], Result<f64, &str>); 8] = [
+        ("a.tri", "default", &[], Ok(0.0)),
+        ("a.tri", "default", &["dither.bits=4"], Ok(17.0)),
+        ("s.tri", "default", &[perspective, "shadow.size=16", "shadow.gate=scale"], Ok(1.0)),
+        ("sphere", "default", &["shade.kind=phong"], Err("terms and tables")),
+        ("b.tri", "default", &["blend.kind=constant"], Err("layers")),
+        ("a.tri", "default", &["shadow.transmits=yes", "shadow.gate=scale", perspective], Err("layers")),
+        ("p.tri", "polygon", &[], Err("lie from a plane")),
+        ("p.tri", "bilinear", &[], Err("edges of a frame")),
+    ];
+    for (input, preset, settings, expected) in cases {
+        let screen = ["screen.width=32", "screen.height=32"];
+        let settings = [&screen[..], settings].concat();
+        let sets: Vec<&str> = settings.iter().flat_map(|setting| ["--set", setting]).collect();
+        let run = |words: &[&str]| {
+            let mut command = Command::new(env!("CARGO_BIN_EXE_edgewalk"));
+            command.current_dir(folder.path()).args(words).args(["--machine", preset, "--json"]).args(&sets);
+            let output = command.output().unwrap();
+            let value: Value = serde_json::from_slice(&output.stdout).unwrap_or_else(|_| {
+                panic!("{words:?} {sets:?}: {}", String::from_utf8_lossy(&output.stderr))
+            });
+            value
+        };
+        let proof = run(&["config", "explain"])["precision"]["color"].clone();
+        let of_key = run(&["config", "explain", "dither.bits"]);
+        let values = of_key["values"].as_array().unwrap();
+        let own = values.iter().find(|value| value["asked_for"] == true).unwrap();
+        assert_eq!(own["bounds"][1], proof["bound"], "{own}");
+        assert_eq!(own["no_bounds"][1], proof["no_bound"], "{own}");
+        let mut words = vec!["render", input];
+        if preset == "default" && input == "sphere" {
+            words.extend(["--shading", "phong"]);
+        }
+        let comparison = run(&words)["comparison"].clone();
+        let error = comparison["color_error"].as_f64().unwrap();
+        match expected {
+            Ok(behind) => {
+                let (bound, of_frame) =
+                    (proof["bound"].as_f64().unwrap(), comparison["color_bound"].as_f64().unwrap());
+                assert!(error <= of_frame && of_frame <= bound, "{input}: {error} {of_frame} {bound}");
+                let plain = precision(&screen)["color"]["bound"].as_f64().unwrap();
+                assert_eq!(bound, plain + behind, "{input}");
+                assert_eq!(proof["needed_fraction_bits"].is_null(), behind > 0.0, "{proof}");
+            }
+            Err(why) => {
+                assert!(proof["bound"].is_null() && proof["needed_fraction_bits"].is_null(), "{proof}");
+                for told in ["no_bound", "out_of_reach"] {
+                    assert!(proof[told].as_str().unwrap().contains(why), "{proof}");
+                }
+            }
+        }
+    }
+    println!("checked {} machines", cases.len());
+}
+
 #[test]
 fn where_no_bits_will_do_it_says_why() {
     let told = precision(&["formats.z_vertex=0"]);

@@ -185,6 +185,68 @@ fn witnesses_of_a_segmented_adder_are_drawn() {
     assert!(witness["fraction_bits"].as_u64().unwrap() + 2 < 8, "a word of less than 4 segments: {witness}");
 }
 
+/// What stands behind the interpolator counts: the answer's bound is that of `render` with the answer's bits.
+#[test]
+fn bounds_are_those_of_what_is_stored() {
+    let folder = tempfile::tempdir().unwrap();
+    let polygon = "size 32 32\nP 4 2.3 3.1 .31 .1 .2 .3 0  28.7 5.9 .52 .63 .3 .41 0  25.2 29.3 .61 .9 .7 .52 0  5.5 22.6 .44 .37 .6 .4 0\n";
+    let value = |x: f64, y: f64| 0.03 + x / 61.0 + y / 97.0;
+    let corners = [(2.3, 3.1), (28.7, 5.9), (25.2, 29.3), (5.5, 22.6)];
+    let vertex = |(x, y)| {
+        let v = value(x, y);
+        format!("  {x} {y} {v} {v} {v} {v} 0")
+    };
+    let planar = format!("size 32 32\nP 4 {}\n", corners.map(vertex).concat());
+    let map = "shadow 16 0.01 0.25 .5 0 0 0  0 .5 0 0  0 0 1 0  0 0 0 1\nL 0 0 0.1  9 0 0.1  0 9 0.1\n";
+    let triangle = "T 1 1 .5 1 0 .3 0  31 1 .2 0 1 .3 0  1 31 .5 .5 .7 0 0\n";
+    let blended = "blend 1\nT 1 1 .5 1 0 .3 .5  31 1 .2 0 1 .3 .5  1 31 .5 .5 .7 0 .5\n";
+    let lit = format!("size 32 32\n{map}{triangle}");
+    let plain = format!("size 32 32\n{triangle}");
+    let mixed = format!("size 32 32\n{blended}");
+    let gate = ["--set", "shadow.light=perspective", "--set", "shadow.size=16", "--set", "shadow.gate=scale"];
+    // The machine, the error, and whether these triangles and every one have an answer for the colour.
+    let cases: [(&str, &[&str], &str, [bool; 2]); 8] = [
+        (&plain, &["--set", "dither.bits=4"], "1", [false, false]),
+        (&plain, &["--set", "dither.bits=4"], "17.9", [true, true]),
+        (&lit, &gate, "1.2", [true, false]),
+        (&lit, &gate, "2", [true, true]),
+        (&plain, &["--set", "blend.kind=constant"], "1", [true, false]),
+        (&mixed, &["--set", "blend.kind=constant"], "1", [false, false]),
+        (&planar, &["--machine", "polygon"], "1", [true, true]),
+        (polygon, &["--machine", "bilinear"], "1", [false, false]),
+    ];
+    for (text, machine, error, answers) in cases {
+        std::fs::write(folder.path().join("a.tri"), text).unwrap();
+        let (code, report) = json(folder.path(), &[&["size", "a.tri", "--error", error], machine].concat());
+        assert_eq!(code, Some(0), "{machine:?} {report}");
+        let color = &report["channels"][1];
+        for (answer, is_there) in ["these", "every"].into_iter().zip(answers) {
+            let told = &color[answer];
+            assert_eq!(
+                [&told["bound"], &told["fraction_bits"]].map(|of| !of.is_null()),
+                [is_there; 2],
+                "{machine:?} {told}"
+            );
+            assert_eq!(told["out_of_reach"].is_null(), is_there, "{told}");
+            if !is_there {
+                continue;
+            }
+            let bound = told["bound"].as_f64().unwrap();
+            assert!(bound <= error.parse().unwrap(), "{machine:?} {told}");
+            let setting = format!("formats.color_fraction={}", told["fraction_bits"]);
+            let (_, picture) =
+                json(folder.path(), &[&["render", "a.tri", "--set", &setting], machine].concat());
+            let found = &picture["comparison"];
+            assert!(found["color_error"].as_f64().unwrap() <= bound, "{machine:?} {answer}: {found}");
+            // With lights render has a bound of the machine alone.
+            if let (Some(of_render), "these") = (found["color_bound_for_input"].as_f64(), answer) {
+                assert!((of_render - bound).abs() < 1e-9, "{machine:?}: {of_render} {bound}");
+            }
+        }
+    }
+    println!("checked {} frames", cases.len());
+}
+
 #[test]
 fn what_cannot_be_sized_is_said() {
     let folder = tempfile::tempdir().unwrap();

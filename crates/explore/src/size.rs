@@ -5,15 +5,18 @@
 //!  frame ─> reach ──────> N ─┴─> bounds 2 and 4, target ─>┴─> a triangle that breaks one bit fewer, drawn
 //! ```
 
+mod behind;
 mod breaker;
 
 use anyhow::{Result, anyhow};
+use behind::Behind;
 pub use breaker::Breaker;
 use edgewalk_host::port::PortFrame;
 use edgewalk_host::reach::{Reach, walked as reached};
 use edgewalk_machine::{Channel, Fill, Machine, Plan};
 use edgewalk_numerics::solver::least_fraction_bits;
 use edgewalk_numerics::{Dyadic, Rounding, Screen, Steps, Target};
+use edgewalk_scene::Frame;
 use serde::Serialize;
 
 /// Least and largest error that may be asked for, LSB.
@@ -77,11 +80,11 @@ pub struct Answer {
     pub no_breaker: Option<String>,
 }
 
-/// The sizes that the frame asks for, with an error of at most so many LSB.
+/// The sizes that the frame asks for, with an error of at most so many LSB. `port`: what the machine is sent of it.
 ///
 /// # Errors
 /// An error outside the range, or a frame that the machine cannot take or that draws nothing.
-pub fn size(machine: &Plan, port: &PortFrame, error: f64) -> Result<Size> {
+pub fn size(machine: &Plan, frame: &Frame, port: &PortFrame, error: f64) -> Result<Size> {
     let (low, high) = ERRORS;
     if !(error > low && error <= high) {
         return Err(anyhow!(
@@ -95,7 +98,7 @@ pub fn size(machine: &Plan, port: &PortFrame, error: f64) -> Result<Size> {
     let guard_columns = if machine.polygon.is_there() { 0 } else { (1 << guard_bits.needed) - 1 };
     let fewest = Screen { guard_columns, ..machine.screen() };
     // Neither what is made of the values on their way to memory nor the segments of an adder change their words.
-    let machine = &plain(machine)?;
+    let (whole, machine) = (machine, &plain(machine)?);
     // Red, green and blue are of one format.
     let all = machine.channels().iter().enumerate().filter(|(place, _)| !(2..4).contains(place));
     let of = |(place, channel): (usize, &Channel)| {
@@ -104,25 +107,28 @@ pub fn size(machine: &Plan, port: &PortFrame, error: f64) -> Result<Size> {
             1 => ("color", "formats.color_fraction".to_owned()),
             _ => (channel.name, format!("channels.{}_fraction", channel.name)),
         };
-        let answer = |screen, needed_by| Answer::of(machine, place, screen, needed_by, error);
+        let of_any = Behind::of_any(whole, place);
+        let of_these = Behind::of_frame(whole, frame, place);
+        let answer = |screen, reach, behind: &_| Answer::of(machine, place, screen, reach, behind, error);
         Ok(ChannelSize {
             name,
             key,
             fraction_bits: channel.fraction,
-            every: answer(machine.screen(), None)?,
-            every_in_fewest_guard_bits: answer(fewest, None)?.without_breaker(),
-            these: answer(walked(machine, reach.steps), Some(&reach))?,
+            every: answer(machine.screen(), None, &of_any)?,
+            every_in_fewest_guard_bits: answer(fewest, None, &of_any)?.without_breaker(),
+            these: answer(walked(machine, reach.steps), Some(&reach), &of_these)?,
         })
     };
     Ok(Size { error, guard_bits, channels: all.map(of).collect::<Result<_>>()? })
 }
 
-/// The machine without SHADE, SHADOW and BLEND, and with adders of one segment, which a word of any length has.
+/// The machine without SHADE, SHADOW, BLEND and DITHER, and with adders of one segment, which a word of any length has.
 fn plain(machine: &Plan) -> Result<Plan> {
     let bare = Machine::default();
     let adders = machine.adders.min(bare.adders + machine.extra);
     let plain = machine.with(|keys| {
-        (keys.shade, keys.shadow, keys.blend) = (bare.shade, bare.shadow, bare.blend);
+        (keys.shade, keys.shadow) = (bare.shade, bare.shadow);
+        (keys.blend, keys.dither) = (bare.blend, bare.dither);
         (keys.adders, keys.segments) = (adders, bare.segments);
     });
     Ok(plain.plan()?)
@@ -145,7 +151,14 @@ fn walked(machine: &Plan, steps: Steps) -> Screen {
 }
 
 impl Answer {
-    fn of(machine: &Plan, place: usize, screen: Screen, reach: Option<&Reach>, error: f64) -> Result<Answer> {
+    fn of(
+        machine: &Plan,
+        place: usize,
+        screen: Screen,
+        reach: Option<&Reach>,
+        behind: &Result<Behind, String>,
+        error: f64,
+    ) -> Result<Answer> {
         let steps = screen.max_steps();
         let mut answer = Answer {
             additions: steps.total(),
@@ -158,11 +171,12 @@ impl Answer {
             no_breaker: None,
         };
         let channel = machine.channels()[place];
-        match least(machine, &channel, steps, error) {
-            Ok((bits, target)) => {
+        let left = behind.clone().and_then(|behind| Ok((behind, behind.left(error)?)));
+        match left.and_then(|(behind, left)| Ok((behind, left, least(machine, &channel, steps, left)?))) {
+            Ok((behind, error, (bits, target))) => {
                 let budget = with_fraction(channel, bits).error_budget(steps);
                 answer.fraction_bits = Some(bits);
-                answer.bound = Some(budget.after_rounding().to_f64());
+                answer.bound = Some(behind.stored(budget.after_rounding().to_f64()));
                 match Breaker::search(machine, place, screen, bits, target, error)? {
                     Ok(breaker) => answer.one_bit_fewer = Some(breaker),
                     Err(why) => answer.no_breaker = Some(why),
@@ -190,12 +204,6 @@ fn least(machine: &Plan, channel: &Channel, steps: Steps, error: f64) -> Result<
     if machine.fill == Fill::Textbook {
         return Err(
             "with edge.fill = textbook outputs wrap outside the triangle, whatever its bits".to_owned()
-        );
-    }
-    if machine.polygon.is_bilinear() && ["r", "g", "b"].contains(&channel.name) {
-        return Err(
-            "the bound of bilinear colours follows the edges of a frame; ask with polygon.values = plane"
-                .to_owned(),
         );
     }
     // What is left for the additions.

@@ -162,6 +162,18 @@ fn of_surface(scene: &Scene, surface: &Surface, shading: Shaded, machine: &Plan)
 /// # Errors
 /// It is not, or has not.
 pub fn fitting(name: &str, frame: Frame, machine: &Plan) -> Result<Frame> {
+    as_large(name, &frame, machine)?;
+    if frame.extra != extra::channels(machine).len() {
+        needs::check(&frame, machine).with_context(|| name.to_owned())?;
+    }
+    Ok(frame)
+}
+
+/// Accepts a frame, or the header of one, that is as large as the machine's screen.
+///
+/// # Errors
+/// It is not: both sizes, and the settings with which it is.
+pub fn as_large(name: &str, frame: &Frame, machine: &Plan) -> Result<()> {
     if (frame.width, frame.height) != (machine.width, machine.height) {
         return Err(anyhow!(
             "{name}: size {} {}: the machine's screen is {}x{}; add --set screen.width={} --set screen.height={}",
@@ -173,10 +185,7 @@ pub fn fitting(name: &str, frame: Frame, machine: &Plan) -> Result<Frame> {
             frame.height
         ));
     }
-    if frame.extra != extra::channels(machine).len() {
-        needs::check(&frame, machine).with_context(|| name.to_owned())?;
-    }
-    Ok(frame)
+    Ok(())
 }
 
 /// The frame with its polygons as triangles, all in the machine's guard band; on a machine with POLY polygons stay whose values a

@@ -1,10 +1,11 @@
 //! What a frame asks of a machine: every key that must have another value, all of them at once.
 
 use crate::extra;
-use anyhow::{Result, anyhow};
+use anyhow::Result;
 use edgewalk_machine::keys::KEYS;
 use edgewalk_machine::{Gate, Plan, ShadeColour};
 use edgewalk_scene::{Blending, Frame, Light, PixelMethod, PixelShading, ShadeMode, Shadow, Triangle};
+use std::fmt;
 
 /// A key of the machine that must have another value.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -60,19 +61,33 @@ pub fn check(frame: &Frame, machine: &Plan) -> Result<()> {
         return Ok(());
     }
     let whys: Vec<&str> = needs.iter().map(|need| need.why.as_str()).filter(|why| !why.is_empty()).collect();
-    let settings: Vec<String> =
-        needs.iter().map(|need| format!("--set {}={}", need.key, need.value)).collect();
+    let settings = needs.iter().map(|need| (need.key.to_owned(), need.value.clone())).collect();
     // Golden has the channels of the machine, too.
-    let golden = if needs.iter().any(|need| need.key != "channels.extra") {
-        ", or draw with --engine golden"
-    } else {
-        ""
-    };
-    Err(anyhow!(
-        "{}; give {}, or --adapt, which sets the keys that are not given{golden}",
-        whys.join("; "),
-        settings.join(" ")
-    ))
+    let by_golden = needs.iter().any(|need| need.key != "channels.extra");
+    Err(NotMet { why: whys.join("; "), settings, by_golden }.into())
+}
+
+/// What a frame needs and the machine does not have; the words are those of the command line.
+#[derive(Clone, Debug, PartialEq)]
+pub struct NotMet {
+    /// What was found.
+    pub why: String,
+    /// Keys and the values that meet it.
+    pub settings: Vec<(String, String)>,
+    /// Golden draws the frame as it is.
+    pub by_golden: bool,
+}
+
+impl std::error::Error for NotMet {}
+
+impl fmt::Display for NotMet {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        let settings: Vec<String> =
+            self.settings.iter().map(|(key, value)| format!("--set {key}={value}")).collect();
+        let golden = if self.by_golden { ", or draw with --engine golden" } else { "" };
+        let settings = settings.join(" ");
+        write!(f, "{}; give {settings}, or --adapt, which sets the keys that are not given{golden}", self.why)
+    }
 }
 
 /// BLEND, and one k_t for a triangle or more; a machine with a screen door mixes by that.

@@ -2,6 +2,8 @@
 
 use crate::channel::{Channel, Kind};
 use crate::machine::{EdgeKind, Fill, Machine};
+use crate::plan::{COLOURS, Plan};
+use crate::shadow::Gate;
 use edgewalk_numerics::bounds::slope_edge_error;
 use edgewalk_numerics::{Dyadic, ErrorBudget, Rounding, Screen, Steps};
 
@@ -23,6 +25,32 @@ pub enum NoBound {
         "edge.fill = textbook draws pixels outside the triangle, where values leave their range and wrap"
     )]
     Textbook,
+    /// The colour comes from tables (bounds 12 to 17).
+    #[error(
+        "each shaded triangle has the bound of its terms and tables; `edgewalk render` tells those of a frame"
+    )]
+    Shaded,
+    /// The third term of bound 20 is of a frame.
+    #[error("the bound of bilinear colours follows the edges of a frame; ask with polygon.values = plane")]
+    Bilinear,
+    /// Bound 11 grows with the layers of a pixel.
+    #[error(
+        "the bound of a colour grows with the layers behind its pixel and the light that they take; one layer errs by at most \
+         {layer:.4} LSB"
+    )]
+    Layered {
+        /// Of a fragment's own colour, LSB.
+        layer: Dyadic,
+    },
+    /// Bound 19: the defect is of a frame.
+    #[error(
+        "a polygon adds how far its values lie from a plane; a triangle errs by at most {plane:.4} LSB, and `edgewalk size FILE` \
+         tells the bound of a frame"
+    )]
+    Polygons {
+        /// Of a triangle, LSB.
+        plane: Dyadic,
+    },
 }
 
 impl Channel {
@@ -80,6 +108,40 @@ impl Machine {
     pub fn max_steps(&self) -> Steps {
         self.screen().max_steps()
     }
+}
+
+impl Plan {
+    /// The largest error of a stored depth (place 0) or colour (places 1 to 3) in every frame, LSB of what PIXEL gives: that of
+    /// [`Machine::proved_budget`], of a light's gate, and the step of DITHER (bound 18).
+    ///
+    /// # Errors
+    /// Why there is none for every frame.
+    pub fn proved_output(&self, place: usize) -> Result<f64, NoBound> {
+        let color = COLOURS.contains(&place);
+        if color && self.shade.is_there() {
+            return Err(NoBound::Shaded);
+        }
+        if color && self.polygon.is_bilinear() {
+            return Err(NoBound::Bilinear);
+        }
+        let own = self.proved_budget(&self.channels()[place])?.after_rounding();
+        if color && (self.blend.is_there() || self.shadow.transmits()) {
+            return Err(NoBound::Layered { layer: own });
+        }
+        if self.polygon.is_there() {
+            return Err(NoBound::Polygons { plane: own });
+        }
+        // A frame may leave a point in shadow all of its colour.
+        let share = (color && self.shadow.is_there() && self.shadow.gate == Gate::Scale).then_some(1.0);
+        Ok(gated(own.to_f64(), share) + if color { self.dither_step() } else { 0.0 })
+    }
+}
+
+/// The error of a colour behind a light's gate that leaves a point in shadow this share of it, LSB: the share is rounded, and so
+/// is the product.
+#[must_use]
+pub fn gated(lit: f64, share: Option<f64>) -> f64 {
+    share.map_or(lit, |share| lit.max(lit * share + 1.0))
 }
 
 #[cfg(test)]

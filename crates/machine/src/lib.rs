@@ -55,7 +55,7 @@ pub mod text;
 
 pub use activity::Activity;
 pub use blend::{Blend, BlendKind};
-pub use budget::NoBound;
+pub use budget::{NoBound, gated};
 pub use channel::{Channel, Kind, MAX_CHANNELS, Precision};
 pub use counted::Counted;
 pub use dither::{Dither, ScreenDoor};

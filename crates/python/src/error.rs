@@ -1,5 +1,6 @@
 //! The exception of the module, and the way to it from errors and panics.
 
+use edgewalk_host::needs::NotMet;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -8,7 +9,13 @@ pyo3::create_exception!(edgewalk, Error, PyValueError, "What the program would s
 
 /// The exception with the whole message.
 pub fn raised(error: &anyhow::Error) -> PyErr {
-    Error::new_err(format!("{error:#}"))
+    // Of all that may be said to do, only this is said in words of the command line.
+    let Some(NotMet { why, settings, by_golden }) = error.downcast_ref() else {
+        return Error::new_err(format!("{error:#}"));
+    };
+    let settings: Vec<String> = settings.iter().map(|(key, value)| format!("{key:?}: {value:?}")).collect();
+    let golden = if *by_golden { ", or draw with engine=\"golden\"" } else { "" };
+    Error::new_err(format!("{why}; give a machine.with_keys({{{}}}){golden}", settings.join(", ")))
 }
 
 /// Does the work without Python's lock; errors become exceptions, and so does a panic, which would be a defect.

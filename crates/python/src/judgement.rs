@@ -87,8 +87,8 @@ fn rule(name: Option<&str>, fill: Fill) -> PyResult<Rule> {
 
 /// A tolerance in LSB, which must be 0 or more.
 fn asked(name: &str, lsb: Option<f64>) -> PyResult<Asked> {
-    if lsb.is_some_and(|lsb| !(lsb.is_finite() && lsb >= 0.0)) {
-        return Err(Error::new_err(format!("{name}: {lsb:?}; permitted: 0 or more, LSB")));
+    if let Some(lsb) = lsb.filter(|lsb| !(lsb.is_finite() && *lsb >= 0.0)) {
+        return Err(Error::new_err(format!("{name}: {lsb}; permitted: a number of 0 or more, LSB")));
     }
     Ok(Asked { bits: None, lsb })
 }

@@ -5,14 +5,38 @@ use crate::error::raised;
 use crate::machine::{Machine, on_screen};
 use edgewalk_host::input::fitting;
 use edgewalk_machine::Plan;
-use edgewalk_scene::Frame;
 use edgewalk_scene::triangle_file::{parse, read};
+use edgewalk_scene::{Frame, InputError};
 use pyo3::prelude::*;
 use std::fmt::Write as _;
 use std::path::PathBuf;
 
 /// Values of a vertex: x, y in pixels, z, r, g, b and kt in 0 to 1.
 const VERTEX: usize = 7;
+
+/// An error in the text that was made of a header and an array, by its place in these: the array begins behind `before` lines.
+fn in_array(error: InputError, before: usize) -> PyErr {
+    let (InputError::Fault(fault) | InputError::NeedsWhole(fault)) = error else {
+        return raised(&error.into());
+    };
+    let mut fault = *fault;
+    match fault.line.take() {
+        Some(line) if line > before => {
+            fault.file = format!("triangles[{}]", line - before - 1);
+            // `T vertex 1 x`: an array's first vertex is its vertex 0.
+            let words: Vec<&str> = fault.key.split(' ').collect();
+            if let ["T", "vertex", vertex, name] = words[..]
+                && let Ok(vertex) = vertex.parse::<usize>()
+            {
+                fault.key = format!("vertex {}, {name}", vertex - 1);
+            }
+        }
+        // The first line says the size.
+        Some(line) if line > 1 => (fault.file, fault.line) = ("header".to_owned(), Some(line - 1)),
+        _ => {}
+    }
+    raised(&InputError::from(Box::new(fault)).into())
+}
 
 /// The frame, and the machine with its screen. `header` is more lines before the triangles of an array.
 pub fn frame(
@@ -37,7 +61,8 @@ pub fn frame(
             text.push('\n');
         }
         let name = "triangles".to_owned();
-        let frame = parse(&name, text.as_bytes()).map_err(|error| raised(&error.into()))?;
+        let before = 1 + header.split('\n').count();
+        let frame = parse(&name, text.as_bytes()).map_err(|error| in_array(error, before))?;
         (name, plan, frame)
     };
     let frame = fitting(&name, frame, &plan).map_err(|error| raised(&error))?;

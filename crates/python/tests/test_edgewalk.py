@@ -125,6 +125,9 @@ def test_judge_takes_polygons_whole():
 
 NAN = triangles(1)
 NAN[0, 0, 0] = np.nan
+DEEP = np.zeros((3, 7))
+DEEP[1, 2] = 5
+LINE = "S 1 1 0.5 1 0 0 0  9 9 0.5 1 0 0 0"
 WRONG = [
     (lambda: edgewalk.Machine("smal"), "unknown preset smal; permitted: .*nearest: small"),
     (lambda: edgewalk.Machine(keys={"screen.widht": 3}), "screen.widht = 3: .*screen.width"),
@@ -134,9 +137,13 @@ WRONG = [
     (lambda: edgewalk.raster(np.zeros((2, 3, 6))), r"its shape is \[2, 3, 6\]; permitted: "),
     (lambda: edgewalk.raster(np.zeros(())), "triangles: its shape is "),
     (lambda: edgewalk.raster(np.array("text")), "triangles: its type is "),
-    (lambda: edgewalk.raster(NAN), "triangles:3: "),
+    (lambda: edgewalk.raster(NAN), r"^triangles\[0\]: vertex 0, x: `NaN`: permitted: "),
+    (lambda: edgewalk.raster(triangles(3) + DEEP, header="depth less\ndepth_write 1\n"),
+     r"^triangles\[0\]: vertex 1, z: "),
+    (lambda: edgewalk.raster(triangles(1), header=LINE),
+     r"^lines: .*; give a machine.with_keys\(\{\"polygon.lines\": \"yes\"\}\), or draw with engine=\"golden\"$"),
     (lambda: edgewalk.raster("none.tri"), "none.tri"),
-    (lambda: edgewalk.raster(triangles(), header="depth les"), "triangles:2: depth: "),
+    (lambda: edgewalk.raster(triangles(), header="depth les"), "^header:1: depth: "),
     (lambda: edgewalk.judge(triangles()), "no array; permitted: "),
     (lambda: edgewalk.judge(triangles(), lit=np.zeros((480, 640), int), against="machine"), "no array can be compared: "),
     (lambda: edgewalk.judge(triangles(), z=np.zeros((3, 3))), r"z: its shape is \[3, 3\]; permitted: \[480, 640\]"),
@@ -147,7 +154,8 @@ WRONG = [
     (lambda: edgewalk.judge(triangles(), z=np.full((480, 640), np.nan)), r"z: NaN in pixel \(0, 0\); permitted: floats in 0 to 1"),
     (lambda: edgewalk.judge(triangles(), id=np.zeros((480, 640))), "id: its type is float64; permitted: "),
     (lambda: edgewalk.judge(triangles(), z=np.zeros((480, 640)), rule="left"), "rule: \"left\"; permitted: "),
-    (lambda: edgewalk.judge(triangles(), z=np.zeros((480, 640)), depth_lsb=-1.0), "depth_lsb: "),
+    (lambda: edgewalk.judge(triangles(), z=np.zeros((480, 640)), depth_lsb=-1.0),
+     "^depth_lsb: -1; permitted: a number of 0 or more, LSB$"),
     (lambda: edgewalk.judge(triangles(), z=np.zeros((480, 640)), against="me"), "against: \"me\"; permitted: "),
 ]
 

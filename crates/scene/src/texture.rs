@@ -37,7 +37,7 @@ pub enum Texture {
 }
 
 /// A picture in memory.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Eq, Hash)]
 pub struct Image {
     width: u32,
     height: u32,

@@ -9,6 +9,7 @@ mod extra;
 mod rules;
 mod shading;
 mod texture;
+mod unsaid;
 mod reader;
 mod writer;
 

@@ -22,7 +22,7 @@ fn parse(text: &str) -> Frame {
 #[test]
 fn every_item_is_taken_in_any_order() {
     let text = format!(
-        "material 0.2 0.5 0.4 20\nsun 0 3 4 0.75 # second\nspecular blinn\nsize 9 9\nextra 1\nsun 1 0 0 2\nview 0 0 -2\nmode \
+        "material 0.2 0.5 0.4 20\nsun 0 3 4 0.75 # second\nspecular blinn\nambient 0.3\nsize 9 9\nextra 1\nsun 1 0 0 2\nview 0 0 -2\nmode \
          fast-phong\n{T}\n{N}\nX 1 2 3\nmaterial 0 1 0 1\nmaterial 1 0 0.5 7.5\n{T}\n\nX 4 5 6 # before N\n{N}\n{T}\nN \
          1.001 0 0 0 1 0 0 0 1\nX 7 8 9\n"
     );
@@ -30,7 +30,7 @@ fn every_item_is_taken_in_any_order() {
     let shading = frame.shading.unwrap();
     assert_eq!((frame.mode, shading.method), (ShadeMode::Gouraud, PixelMethod::FastPhong));
     assert_eq!(shading.viewer, Viewer::Toward(DVec3::NEG_Z));
-    assert_eq!((shading.ambient, shading.specular), (DVec3::ONE, Specular::Blinn));
+    assert_eq!((shading.ambient, shading.specular), (DVec3::splat(0.3), Specular::Blinn));
     let sun = |x, y, z, i| Light::Directional { toward: DVec3::new(x, y, z), intensity: DVec3::splat(i) };
     assert_eq!(shading.lights, [sun(0.0, 0.6, 0.8, 0.75), sun(1.0, 0.0, 0.0, 2.0)]);
     let coefficients =
@@ -50,8 +50,35 @@ fn without_such_a_mode_nothing_changes_and_halfway_is_usual() {
     assert_eq!(parse(&format!("size 9 9\n{T}")).shading, None);
     let shading = parse(&format!("{HEADER}{T}\n{N}")).shading.unwrap();
     assert_eq!((shading.specular, shading.lights.len()), (Specular::Halfway, 0));
+    assert_eq!(shading.ambient, DVec3::ONE);
     let empty = parse("size 9 9\nmode phong\nview 0 0 1").shading.unwrap();
     assert_eq!((empty.materials.len(), empty.triangles.len()), (0, 0));
+}
+
+/// A machine has tables for few materials, and a mesh may change between them often.
+#[test]
+fn lines_of_one_material_are_one_material() {
+    let lines = ["material 0 1 0 1", "material 0 1 0 2", "material 0.0 1.0 0 1", "material 0 1 0 2"];
+    let text: String = lines.map(|line| format!("{line}\n{T}\n{N}\n")).concat();
+    let shading = parse(&format!("size 9 9\nmode phong\nview 0 0 1\n{text}")).shading.unwrap();
+    let places: Vec<u32> = shading.triangles.iter().map(|triangle| triangle.material).collect();
+    assert_eq!((shading.materials.len(), &places[..]), (2, &[0, 1, 0, 1][..]));
+    let picture = |color: &str| format!("material 0 1 0 1\ntexture 1 1 {color}\n{T}\n{N}\nUV 0 0 1 0 0 1\n");
+    let text = ["ff8000", "ff8001", "ff8000"].map(picture).concat();
+    let shading = parse(&format!("size 9 9\nmode phong\nview 0 0 1\n{text}")).shading.unwrap();
+    let places: Vec<u32> = shading.triangles.iter().map(|triangle| triangle.material).collect();
+    assert_eq!((shading.materials.len(), shading.textures.len(), &places[..]), (2, 2, &[0, 1, 0][..]));
+}
+
+#[test]
+fn normals_that_are_not_unit_vectors_are_not_written() {
+    let mut frame = parse(&format!("{HEADER}{T}\n{N}"));
+    frame.shading.as_mut().unwrap().triangles[0].normals[1] *= 0.995;
+    let error = triangle_file::write(&frame, std::io::sink()).unwrap_err().to_string();
+    assert!(
+        error.starts_with("triangle 0 has the normal ") && error.ends_with("normals of length 1"),
+        "{error}"
+    );
 }
 
 #[test]
@@ -59,12 +86,15 @@ fn malformed_shading_names_place_and_remedy() {
     let with = |line: &str| format!("{HEADER}{line}\n{T}\n{N}");
     let behind = |line: &str| format!("{HEADER}{T}\n{line}");
     let without = |line: &str| format!("{HEADER}{T}\n{N}").replace(line, "");
-    let cases: [(String, &[&str]); 41] = [
+    let cases: [(String, &[&str]); 44] = [
         (
             "size 9 9\nmode fong".into(),
             &["a.tri:2: mode: `fong`", "gouraud flat phong fast-phong", "did you mean `phong`?"],
         ),
         ("size 9 9\nmode fastphong".into(), &["did you mean `fast-phong`?"]),
+        (with("ambient 101"), &["a.tri:5: ambient: `101`", "from 0 to 100"]),
+        (with("ambient 0.2\nambient 0.2"), &["a.tri:6: ambient: `ambient`", "permitted once"]),
+        (format!("size 9 9\nambient 1\n{T}"), &["a.tri:2:", "`ambient`", "only with `mode phong`"]),
         ("size 9 9\nmode phong 2".into(), &["a.tri:2: mode: `2 given`", "1 value"]),
         (
             without("view 0 0 2\n"),
@@ -174,6 +204,7 @@ prop_compose! {
     fn shading()(
         method in prop::sample::select(PixelMethod::ALL.to_vec()),
         viewer in direction().prop_map(Viewer::Toward),
+        ambient in prop_oneof![Just(1.0), 0.0..=100.0f64],
         lights in prop::collection::vec((direction(), 0.0..=100.0f64), 0..4),
         specular in prop::sample::select(PixelShading::FORMS.to_vec()),
         materials in prop::collection::vec((prop::array::uniform3(0.0..=1.0f64), 1.0..=1024.0f64), 1..4),
@@ -202,7 +233,7 @@ prop_compose! {
             normals.iter().map(own).collect::<Vec<_>>()
         });
         PixelShading {
-            method, viewer, ambient: DVec3::ONE, specular,
+            method, viewer, ambient: DVec3::splat(ambient), specular,
             lights: lights.into_iter().map(light).collect(),
             triangles: triangles.collect(),
             materials: materials.into_iter().zip(&of_material).map(material).collect(),
@@ -224,7 +255,7 @@ proptest! {
     }
 
     #[test]
-    fn no_text_panics(text in "(size 9 9\n|mode phong\n|view|sun|specular|material|texture 1 1|T|N|UV|X|P 3|[0-9 .e-]|\n){0,40}") {
+    fn no_text_panics(text in "(size 9 9\n|mode phong\n|view|ambient|sun|specular|material|texture 1 1|T|N|UV|X|P 3|[0-9 .e-]|\n){0,40}") {
         let _ = triangle_file::parse("a.tri", text.as_bytes());
     }
 }

@@ -16,11 +16,17 @@ pub struct Cells {
     pub ff: u64,
     /// Memories: blocks, and on ECP5 those of 16 words in look-up tables.
     pub ram: u64,
+    /// Those of `ram` that lie in look-up tables.
+    #[serde(skip)]
+    pub distributed: u64,
     /// Multipliers.
     pub dsp: u64,
     /// Multiplexers beside the look-up tables, ECP5 only.
     pub mux: u64,
 }
+
+/// A memory of an ECP5 in look-up tables.
+const DISTRIBUTED: &str = "TRELLIS_DPR16X4";
 
 /// Cells of Yosys that stand for nothing on the device.
 const NOTHING: &str = "$scopeinfo";
@@ -30,12 +36,20 @@ fn kind<'c>(cells: &'c mut Cells, cell: &str) -> Option<&'c mut u64> {
     match cell {
         "SB_LUT4" | "LUT4" => Some(&mut cells.lut4),
         "SB_CARRY" | "CCU2C" => Some(&mut cells.carry),
-        "SB_RAM40_4K" | "SB_SPRAM256KA" | "DP16KD" | "PDPW16KD" | "TRELLIS_DPR16X4" => Some(&mut cells.ram),
+        "SB_RAM40_4K" | "SB_SPRAM256KA" | "DP16KD" | "PDPW16KD" | DISTRIBUTED => Some(&mut cells.ram),
         "SB_MAC16" | "MULT18X18D" | "MULT9X9D" | "ALU54B" => Some(&mut cells.dsp),
         "PFUMX" | "L6MUX21" => Some(&mut cells.mux),
         "TRELLIS_FF" => Some(&mut cells.ff),
         _ if cell.starts_with("SB_DFF") => Some(&mut cells.ff),
         _ => None,
+    }
+}
+
+impl Cells {
+    /// Memory blocks.
+    #[must_use]
+    pub fn blocks(&self) -> u64 {
+        self.ram - self.distributed
     }
 }
 
@@ -45,6 +59,7 @@ impl AddAssign for Cells {
         self.carry += other.carry;
         self.ff += other.ff;
         self.ram += other.ram;
+        self.distributed += other.distributed;
         self.dsp += other.dsp;
         self.mux += other.mux;
     }
@@ -84,6 +99,7 @@ impl Statistics {
                 let each = self.module(cell)?;
                 (0..*count).for_each(|_| all += each);
             } else if cell != NOTHING {
+                all.distributed += if cell == DISTRIBUTED { *count } else { 0 };
                 *kind(&mut all, cell)
                     .ok_or_else(|| said(format!("{name} has cells {cell}, of unknown kind")))? += count;
             }
@@ -116,7 +132,7 @@ mod tests {
     const PRINTED: &str = r#"{ "creator": "Yosys", "modules": {
         "\\edgewalk": { "num_cells": 9, "num_cells_by_type": { "SB_LUT4": 3, "edgewalk_lane": 2, "edgewalk_span": 1, "SB_DFF": 1 } },
         "\\edgewalk_lane": { "num_cells": 12, "num_cells_by_type": { "SB_CARRY": 5, "SB_DFFESR": 4, "SB_LUT4": 7, "SB_DFF": 1 } },
-        "\\edgewalk_span": { "num_cells_by_type": { "$scopeinfo": 1, "LUT4": 4, "CCU2C": 2, "PFUMX": 1, "TRELLIS_FF": 8, "DP16KD": 1, "MULT18X18D": 1 } },
+        "\\edgewalk_span": { "num_cells_by_type": { "$scopeinfo": 1, "LUT4": 4, "CCU2C": 2, "PFUMX": 1, "TRELLIS_FF": 8, "DP16KD": 1, "TRELLIS_DPR16X4": 6, "MULT18X18D": 1 } },
         "\\odd": { "num_cells_by_type": { "SB_ODD": 1 } }
         },
             edgewalk_span            1
@@ -126,7 +142,9 @@ mod tests {
     fn modules_count_with_those_in_them() {
         let statistics = Statistics::read(PRINTED).expect("JSON");
         let all = statistics.module("edgewalk").expect("known cells");
-        assert_eq!(all, Cells { lut4: 3 + 14 + 4, carry: 10 + 2, ff: 1 + 10 + 8, ram: 1, dsp: 1, mux: 1 });
+        let [lut4, carry, ff] = [3 + 14 + 4, 10 + 2, 1 + 10 + 8];
+        assert_eq!(all, Cells { lut4, carry, ff, ram: 7, distributed: 6, dsp: 1, mux: 1 });
+        assert_eq!(all.blocks(), 1);
         assert_eq!(statistics.own("edgewalk"), Cells { lut4: 3, ff: 1, ..Cells::default() });
     }
 

@@ -54,7 +54,7 @@ impl Flow<'_> {
     #[must_use]
     pub fn run(&self, design: &Design, target: &Target) -> Outcome {
         let mut outcome = self.measured(design, target);
-        let own = outcome.cells.map_or(0, |cells| cells.ram);
+        let own = outcome.cells.map_or(0, |cells| cells.blocks());
         outcome.memories = place(design.memories.clone(), target.blocks, own);
         outcome
     }

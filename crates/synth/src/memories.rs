@@ -18,7 +18,7 @@ pub struct Block {
     pub shapes: &'static [(u64, u64)],
     /// Accesses in a clock: 2 for a read beside a write.
     pub accesses: u32,
-    /// The memories inside the design lie in blocks of this kind, and Yosys counts no others as memories.
+    /// The memories inside the design that are blocks are of this kind.
     pub holds_own: bool,
 }
 

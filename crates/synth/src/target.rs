@@ -36,13 +36,13 @@ const fn ebr(count: u64) -> Block {
 const SPRAM: Block =
     Block { name: "SPRAM", count: 4, shapes: &[(16_384, 16)], accesses: 1, holds_own: false };
 
-/// Blocks of 18 kbit of an LFE5U-25F. Yosys counts memories in look-up tables beside them.
+/// Blocks of 18 kbit of an LFE5U-25F.
 const DP16KD: Block = Block {
     name: "DP16KD",
     count: 56,
     shapes: &[(512, 36), (1024, 18), (2048, 9), (4096, 4), (8192, 2), (16_384, 1)],
     accesses: 2,
-    holds_own: false,
+    holds_own: true,
 };
 
 /// All of them.

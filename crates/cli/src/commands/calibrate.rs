@@ -74,7 +74,8 @@ pub fn run(args: &Args, talk: Talk) -> Result<Verdict> {
     let of_family = |ending: &str| PathBuf::from(format!("crates/synth/data/{}.{ending}", args.family));
     let data = args.data.clone().unwrap_or_else(|| of_family("csv"));
     let fitted = args.fit.clone().unwrap_or_else(|| of_family("json"));
-    let list = read(&args.machines)?;
+    let list =
+        read(&args.machines).map_err(|error| from_elsewhere(error, "--machines, the list of machines"))?;
     let lines: Vec<&str> = list.lines().map(str::trim).filter(|line| !line.is_empty()).collect();
     if args.count > lines.len() {
         return Err(anyhow!(
@@ -116,7 +117,8 @@ pub fn run(args: &Args, talk: Talk) -> Result<Verdict> {
             for part in parts.iter().copied() {
                 if bench.add(line, part, held_out, &plan, &mut rows)? {
                     std::fs::write(&data, Measured::table(&rows))
-                        .with_context(|| data.display().to_string())?;
+                        .with_context(|| data.display().to_string())
+                        .map_err(|error| from_elsewhere(error, "--data, the table of what was measured"))?;
                 }
             }
             bar.inc(1);
@@ -125,13 +127,19 @@ pub fn run(args: &Args, talk: Talk) -> Result<Verdict> {
     bar.finish_and_clear();
     let (samples, stale) = samples(family, rows)?;
     if samples.is_empty() {
-        return Err(anyhow!("{}: no row is of a netlist as it is today; add --count N", data.display()));
+        return Err(anyhow!(
+            "{}: no row of it is of a machine's netlist; give --data the table of a checkout of the repository, or add --count N, which \
+             synthesises N machines",
+            data.display()
+        ));
     }
     let again = |sample: &Sample, delays: &Delays| {
         structure(family, &sample.measured, delays).unwrap_or_else(|_| sample.structure.clone())
     };
     let fit = Fit::to(family, &samples, again);
-    std::fs::write(&fitted, document("fit", &fit)?).with_context(|| fitted.display().to_string())?;
+    std::fs::write(&fitted, document("fit", &fit)?)
+        .with_context(|| fitted.display().to_string())
+        .map_err(|error| from_elsewhere(error, "--fit, the file of the fit"))?;
     let report = Report { rows: samples.len(), stale, fit };
     talk.say(|| document("calibrate", &report), || report.text())?;
     Ok(Verdict::Pass)
@@ -165,6 +173,13 @@ impl Report {
 
 fn read(path: &Path) -> Result<String> {
     std::fs::read_to_string(path).with_context(|| path.display().to_string())
+}
+
+/// The files that are left out are those of a checkout: the error with the way out of any other folder.
+fn from_elsewhere(error: anyhow::Error, option: &str) -> anyhow::Error {
+    anyhow!(
+        "{error:#}; permitted: {option}; run in a checkout of the repository, or give --machines FILE --data FILE --fit FILE"
+    )
 }
 
 /// The machine of a line: a preset, and settings behind spaces.

@@ -12,6 +12,7 @@ use crate::{Talk, fast};
 use anyhow::{Context, Result, anyhow};
 use edgewalk_files::Staging;
 use edgewalk_host::extra;
+use edgewalk_host::input::as_large;
 use edgewalk_host::needs::{self, needs};
 use edgewalk_judge::report::Report;
 use edgewalk_machine::Plan;
@@ -38,6 +39,7 @@ The triangle file (docs/triangle_file.md), one item a line, # comments:
   size W H                                                before the first triangle, as the header's other lines
   mode gouraud|flat|phong|fast-phong
   view x y z   sun x y z i   specular halfway|blinn       of phong and fast-phong: to the viewer, to a light
+  ambient i                                               of phong and fast-phong: ambient light, 1 unless given
   material ka kd ks n                                     of the triangles behind it
   texture W H  rrggbb ..                                  texels of the material before it, lines from the top; texture.kind=nearest
   depth less|lequal|always|off|...
@@ -102,6 +104,7 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
     } else {
         machine.machine(screen)?
     };
+    as_large(&name, &header, &machine)?;
     if header.extra != extra::channels(&machine).len() {
         needs::check(&file.whole()?, &machine).with_context(|| name.clone())?;
     }

@@ -19,7 +19,8 @@ use std::path::PathBuf;
 /// Prove how many fraction bits each channel needs: for every triangle in the guard band, and for those of the
 /// input.
 ///
-/// The error is at most --error LSB of the output. N additions behind a pixel err by (N + 1)/2 units of the last
+/// The error is at most --error LSB of the stored value: a light's gate, DITHER, and polygons beside their planes count. Colours
+/// that are shaded, blended or bilinear have no bound for every triangle. N additions behind a pixel err by (N + 1)/2 units of the last
 /// fraction bit. The report also gives the fewest guard bits. For each answer, a witness triangle exceeds the error
 /// with one bit fewer; it is drawn to show that. Witnesses are witness_z_every.tri, witness_color_these.tri and so
 /// on; size.json has the whole report.
@@ -58,7 +59,7 @@ fn file(channel: &str, answer: &str) -> String {
 pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
     let (machine, frame) = args.source.on_its_screen(machine)?;
     let port = to_port(&frame, &machine)?;
-    let found = size(&machine, &port, args.error).with_context(|| args.source.input.clone())?;
+    let found = size(&machine, &frame, &port, args.error).with_context(|| args.source.input.clone())?;
     let out = Staging::new(&args.out)?;
     let mut own = Vec::new();
     for channel in &found.channels {

@@ -1,11 +1,12 @@
 //! `edgewalk triangles`: a scene or a mesh as a triangle file.
 
 use crate::document::line;
-use crate::input::Source;
+use crate::input::{Shading, Source};
 use crate::machine_args::MachineArgs;
 use crate::verdict::Verdict;
 use crate::{Talk, kept, talk};
-use anyhow::{Context as _, Result, ensure};
+use anyhow::{Context as _, Result, anyhow, ensure};
+use clap::ValueEnum as _;
 use edgewalk_files::Staging;
 use edgewalk_scene::{InputKind, TJoint, triangle_file};
 use serde_json::json;
@@ -14,7 +15,9 @@ use std::path::{Path, PathBuf};
 /// Write a scene or a mesh as a triangle file: its triangles on the screen, as the machine takes them.
 ///
 /// Screen and guard band are those of the machine, colours those of --shading. `edgewalk raster`, and every other command
-/// that takes the file, draws the picture of the scene bit by bit. T-joints of the mesh are counted, and the first is named.
+/// that takes the file, draws the picture of the scene bit by bit. What a file cannot say is refused. With --shading phong that
+/// is a light at a point, coloured light or highlights, emission, and a relief; with fast-phong every scene, as it is seen from a
+/// point. T-joints of the mesh are counted, and the first is named.
 #[derive(clap::Args)]
 #[command(after_help = "Examples:
   edgewalk triangles teapot.obj --out teapot.tri
@@ -47,7 +50,7 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
         (args.source.frame_of(&scene, &surface, &machine)?.0, scene.mesh.t_joints())
     };
     let mut text = Vec::new();
-    triangle_file::write(&frame, &mut text).with_context(|| args.source.input.clone())?;
+    triangle_file::write(&frame, &mut text).map_err(|error| refused(error, args))?;
     let (triangles, size) = (frame.triangles.len(), (machine.width, machine.height));
     let lines = match frame.lines.len() {
         0 => String::new(),
@@ -77,6 +80,24 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
         )?;
     }
     Verdict::drew(frame.drawn() as u64).or_nothing(&args.source.input, frame.drawn() as u64, size)
+}
+
+/// A file cannot say the frame's shading: the error with a way to the picture.
+fn refused(error: std::io::Error, args: &Args) -> anyhow::Error {
+    let input = &args.source.input;
+    if error.kind() != std::io::ErrorKind::Unsupported {
+        return anyhow::Error::new(error).context(input.clone());
+    }
+    let name = args.source.shading.to_possible_value();
+    let name = name.as_ref().map_or("gouraud", |name| name.get_name());
+    let other = if args.source.shading == Shading::FastPhong {
+        "--shading phong or gouraud"
+    } else {
+        "--shading gouraud"
+    };
+    anyhow!(
+        "{input}: {error}; take {other}, or draw the scene without a file: edgewalk render {input} --shading {name} --engine golden"
+    )
 }
 
 /// How many T-joints there are, and where the first is.

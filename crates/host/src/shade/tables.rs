@@ -10,6 +10,9 @@ use edgewalk_scene::{Frame, Material, PixelShading, Specular, Triangle};
 use glam::DVec3;
 use std::collections::HashMap;
 
+/// The most that `shade.material_bits` may be.
+const MAX_MATERIAL_BITS: u32 = 8;
+
 /// The tables of a light for a surface.
 #[derive(Clone, Debug)]
 pub struct LightTables {
@@ -62,10 +65,15 @@ impl Surfaces {
         let most = 1usize << machine.shade.material_bits;
         if surfaces.tables.len() > most {
             let bits = surfaces.tables.len().next_power_of_two().ilog2();
+            let larger = match bits <= MAX_MATERIAL_BITS {
+                true => format!("--set shade.material_bits={bits} or "),
+                false => String::new(),
+            };
             return Err(anyhow!(
-                "{} surfaces that differ in material or colour: the machine has tables for {most}; add --set \
-                 shade.material_bits={bits} (at most 8) or --set shade.colour=multiply",
-                surfaces.tables.len()
+                "{} surfaces that differ in material or colour: the machine has tables for {most}, with \
+                 shade.material_bits={MAX_MATERIAL_BITS} for {}; add {larger}--set shade.colour=multiply",
+                surfaces.tables.len(),
+                1u32 << MAX_MATERIAL_BITS
             ));
         }
         Ok(surfaces)

@@ -19,10 +19,11 @@ use std::path::Path;
 use std::sync::Arc;
 
 /// Every word a line may start with.
-const KEYS: [&str; 24] = [
+const KEYS: [&str; 25] = [
     "size",
     "mode",
     "view",
+    "ambient",
     "sun",
     "specular",
     "clear",
@@ -47,9 +48,9 @@ const KEYS: [&str; 24] = [
 ];
 const SIZE: usize = 0;
 /// `depth` to `clear_depth`: also permitted between triangles.
-const RULES: Range<usize> = 9..15;
+const RULES: Range<usize> = 10..16;
 /// `T` to `S`: the header has ended.
-const PRIMITIVE: usize = 17;
+const PRIMITIVE: usize = 18;
 
 /// Opens the file at `path`, which may be a pipe; `-` is the standard input.
 ///
@@ -241,7 +242,7 @@ impl Parser {
                 self.frame.height = place.number("size H", height, "an integer", 1..=MAX_SIDE)?;
             }
             "mode" => self.header.mode(place, words, &mut self.frame)?,
-            "view" | "sun" | "specular" => self.header.line(place, name, words)?,
+            "view" | "ambient" | "sun" | "specular" => self.header.line(place, name, words)?,
             _ if RULES.contains(&key) => {
                 rules::read(place, name, words, &mut self.rules)?;
                 rules::begin(self.rules, &mut self.frame);

@@ -1,5 +1,5 @@
-//! The lines `mode phong`, `mode fast-phong`, `view`, `sun`, `specular`, `material` and `N`: shading at each
-//! pixel. Of a material's `texture` what it is a part of.
+//! The lines `mode phong`, `mode fast-phong`, `view`, `ambient`, `sun`, `specular`, `material` and `N`:
+//! shading at each pixel. Of a material's `texture` what it is a part of.
 
 use crate::error::InputError;
 use crate::frame::Frame;
@@ -11,13 +11,14 @@ use crate::shading::Specular;
 use crate::text::Place;
 use crate::texture::Image;
 use glam::{DVec2, DVec3};
+use std::collections::HashMap;
 use std::sync::Arc;
 
-/// Brightest sun.
-const MAX_INTENSITY: f64 = 100.0;
+/// Brightest sun, and brightest ambient light.
+pub(super) const MAX_INTENSITY: f64 = 100.0;
 
 /// Sharpest highlight.
-const MAX_EXPONENT: f64 = 1024.0;
+pub(super) const MAX_EXPONENT: f64 = 1024.0;
 
 /// How far from 1 a normal's length may be; it is then brought to 1.
 const LENGTH_SLACK: f64 = 0.01;
@@ -37,12 +38,18 @@ pub(super) struct Header {
     /// The first line that only such a mode has, by its word and place.
     used: Option<(&'static str, usize)>,
     view: Option<DVec3>,
+    /// I_a; 1 if the file does not say it.
+    ambient: Option<f64>,
     suns: Vec<Light>,
     specular: Option<Specular>,
     /// Of the triangles to come, none of which has come.
     material: Option<Material>,
     /// Texture of the material.
     texture: Option<Arc<Image>>,
+    /// Place of each material that a triangle has, by the bits of its numbers and its texture.
+    places: HashMap<([u64; 4], Option<Arc<Image>>), u32>,
+    /// Place of the material of the triangles to come.
+    current: Option<u32>,
 }
 
 impl Header {
@@ -62,7 +69,7 @@ impl Header {
         Ok(())
     }
 
-    /// A line `view`, `sun` or `specular`.
+    /// A line `view`, `ambient`, `sun` or `specular`.
     pub fn line<'a>(
         &mut self,
         place: Place,
@@ -72,6 +79,10 @@ impl Header {
         self.used.get_or_insert((name, place.line));
         match name {
             "view" => self.view = Some(direction(place, name, place.values(name, "x y z", words)?)?),
+            "ambient" => {
+                let [i] = place.values(name, "i", words)?;
+                self.ambient = Some(place.number(name, i, "a number", 0.0..=MAX_INTENSITY)?);
+            }
             "sun" => {
                 let [x, y, z, i] = place.values(name, "x y z i", words)?;
                 let toward = direction(place, name, [x, y, z])?;
@@ -148,7 +159,7 @@ impl Header {
         frame.shading = Some(PixelShading {
             method,
             viewer: Viewer::Toward(view),
-            ambient: DVec3::ONE,
+            ambient: DVec3::splat(self.ambient.unwrap_or(1.0)),
             lights: std::mem::take(&mut self.suns),
             specular: self.specular.unwrap_or(Specular::Halfway),
             materials: Vec::new(),
@@ -161,12 +172,19 @@ impl Header {
     /// A triangle has come; its normals are still to come, and where it lies in its texture if this is true.
     pub fn triangle(&mut self, place: Place, shading: &mut PixelShading) -> Result<bool, InputError> {
         if let Some(material) = self.material.take() {
-            // A file has fewer lines than 2^32: each takes 32 bytes in memory.
-            let texture = self.texture.is_some().then_some(shading.textures.len() as u32);
-            shading.textures.extend(self.texture.take());
-            shading.materials.push(Material { texture, ..material });
+            // Two lines with the same numbers and the same texture are one material: a machine has tables for few.
+            let numbers = [material.ambient.x, material.diffuse.x, material.specular.x, material.exponent];
+            let key = (numbers.map(f64::to_bits), self.texture.take());
+            let place = self.places.entry(key).or_insert_with_key(|(_, picture)| {
+                // A file has fewer lines than 2^32: each takes 32 bytes in memory.
+                let texture = picture.is_some().then_some(shading.textures.len() as u32);
+                shading.textures.extend(picture.clone());
+                shading.materials.push(Material { texture, ..material });
+                shading.materials.len() as u32 - 1 // likewise
+            });
+            self.current = Some(*place);
         }
-        let Some(material) = shading.materials.len().checked_sub(1) else {
+        let Some(material) = self.current else {
             let why = "`material ka kd ks n` is missing; it must come before the first triangle";
             return Err(place.fault("material", b"T", why).into());
         };
@@ -175,9 +193,9 @@ impl Header {
             positions: [DVec3::ZERO; 3],
             texture: [DVec2::ZERO; 3],
             turns: [DVec3::ZERO; 2],
-            material: material as u32, // likewise
+            material,
         });
-        Ok(shading.materials[material].texture.is_some())
+        Ok(shading.materials[material as usize].texture.is_some())
     }
 }
 

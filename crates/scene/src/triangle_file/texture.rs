@@ -91,8 +91,9 @@ pub(super) fn missing(place: Place, before: &[u8], line: usize) -> InputError {
 pub(super) fn write(image: &Image, out: &mut impl Write) -> io::Result<()> {
     let [width, height] = image.sides();
     if width.max(height) > MAX_SIDE {
-        let what =
-            format!("a texture of {width} x {height} texels in a triangle file: at most {MAX_SIDE} each way");
+        let what = format!(
+            "a texture of {width} x {height} texels; a triangle file has at most {MAX_SIDE} each way"
+        );
         return Err(io::Error::new(io::ErrorKind::Unsupported, what));
     }
     write!(out, "texture {width} {height} ")?;

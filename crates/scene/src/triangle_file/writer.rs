@@ -1,6 +1,7 @@
 //! Writes a triangle file; every number comes back bit for bit.
 
-use super::texture;
+use super::shading::MAX_EXPONENT;
+use super::{texture, unsaid};
 use crate::frame::{Frame, Shadow};
 use crate::light::Light;
 use crate::mesh::Material;
@@ -8,14 +9,18 @@ use crate::pixel_shading::{PixelShading, PixelTriangle, Viewer};
 use crate::polygon::Primitive;
 use crate::rules::State;
 use crate::vertex::{Triangle, Vertex};
+use glam::DVec3;
 use std::io::{self, Write};
 use std::iter;
 
 /// Writes `frame` as a triangle file.
 ///
 /// # Errors
-/// `out` fails.
+/// `out` fails; or, of the kind `Unsupported`, a file cannot say the frame's shading: the message says what of it.
 pub fn write(frame: &Frame, mut out: impl Write) -> io::Result<()> {
+    if let Some(shading) = &frame.shading {
+        unsaid::check(shading)?;
+    }
     writeln!(out, "size {} {}", frame.width, frame.height)?;
     match &frame.shading {
         Some(shading) => header(shading, &mut out)?,
@@ -52,9 +57,9 @@ pub fn write(frame: &Frame, mut out: impl Write) -> io::Result<()> {
                 {
                     let Material { ambient, diffuse, specular, exponent, .. } =
                         shading.materials[own.material as usize];
-                    if shading.relief(&own).is_some() {
-                        return Err(unsaid("a relief"));
-                    }
+                    // Without a highlight its exponent says nothing.
+                    let exponent =
+                        if specular.x == 0.0 { exponent.clamp(1.0, MAX_EXPONENT) } else { exponent };
                     writeln!(out, "material {} {} {} {exponent}", ambient.x, diffuse.x, specular.x)?;
                     if let Some(image) = shading.texture(&own) {
                         texture::write(image, &mut out)?;
@@ -84,24 +89,24 @@ pub fn write(frame: &Frame, mut out: impl Write) -> io::Result<()> {
     Ok(())
 }
 
-/// Mode, viewer and lights. Only what a file can say: that of another frame is none of a file.
+/// Mode, viewer and lights.
 fn header(shading: &PixelShading, out: &mut impl Write) -> io::Result<()> {
     writeln!(out, "mode {}", shading.method.name())?;
-    let Viewer::Toward(view) = shading.viewer else { return Err(unsaid("a viewer at a point")) };
-    writeln!(out, "view {} {} {}", view.x, view.y, view.z)?;
-    for light in &shading.lights {
-        let Light::Directional { toward, intensity } = light else {
-            return Err(unsaid("a light at a point"));
-        };
-        writeln!(out, "sun {} {} {} {}", toward.x, toward.y, toward.z, intensity.x)?;
+    if let Viewer::Toward(view) = shading.viewer {
+        writeln!(out, "view {} {} {}", view.x, view.y, view.z)?;
     }
-    let form = PixelShading::FORMS.iter().position(|form| *form == shading.specular);
-    let form = form.ok_or_else(|| unsaid("the mirror form"))?;
-    writeln!(out, "specular {}", PixelShading::FORM_NAMES[form])
-}
-
-fn unsaid(what: &str) -> io::Error {
-    io::Error::new(io::ErrorKind::Unsupported, format!("{what} in a triangle file"))
+    if shading.ambient != DVec3::ONE {
+        writeln!(out, "ambient {}", shading.ambient.x)?;
+    }
+    for light in &shading.lights {
+        if let Light::Directional { toward, intensity } = light {
+            writeln!(out, "sun {} {} {} {}", toward.x, toward.y, toward.z, intensity.x)?;
+        }
+    }
+    if let Some(form) = PixelShading::FORMS.iter().position(|form| *form == shading.specular) {
+        writeln!(out, "specular {}", PixelShading::FORM_NAMES[form])?;
+    }
+    Ok(())
 }
 
 /// The rules that differ from those before; all that are not as usual if there are none before.

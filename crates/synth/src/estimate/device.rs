@@ -24,11 +24,14 @@ pub struct Fits {
 pub fn fits(of: &Estimate, memories: Vec<Memory>, device: &Target) -> Fits {
     let of_cells = device.logic_cells as f64;
     let blocks: u64 = device.blocks.iter().filter(|block| block.holds_own).map(|block| block.count).sum();
-    // On an ECP5 look-up tables hold the machine's own small memories, which are among the cells.
-    let own = if blocks > 0 { of.est_ram } else { 0 };
-    let of_blocks = if blocks > 0 { format!(", {own} blocks of {blocks}") } else { String::new() };
+    // On an ECP5 look-up tables hold the machine's own small memories, which are among the cells and no blocks.
+    let own = of.blocks;
     let cells = of.est_cells;
-    let said = format!("{:.0} ± {:.0} cells of {of_cells}{of_blocks}", cells.value, cells.error.ceil());
+    let said = format!(
+        "{:.0} ± {:.0} cells of {of_cells}, {own} blocks of {blocks}",
+        cells.value,
+        cells.error.ceil()
+    );
     let fits = match () {
         () if own > blocks || cells.value - cells.error > of_cells => Some(false),
         () if cells.value + cells.error <= of_cells => Some(true),

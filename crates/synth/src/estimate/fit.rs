@@ -29,6 +29,9 @@ pub struct Estimate {
     pub est_ff: u64,
     /// Memories, as Yosys counts them: blocks, and on an ECP5 those of 16 words of 4 bits in look-up tables.
     pub est_ram: u64,
+    /// Those of `est_ram` that are memory blocks.
+    #[serde(skip)]
+    pub blocks: u64,
     /// Multipliers, as Yosys counts them. On an iCE40 products are look-up tables.
     pub est_dsp: u64,
     /// Logic cells after packing: a table, a flip-flop and a bit of carry each on an iCE40; a table with what else its
@@ -128,6 +131,7 @@ impl Fit {
             est_carry: of.carry,
             est_ff: of.ff,
             est_ram: of.ram + of.distributed,
+            blocks: of.ram,
             est_dsp: of.products,
             est_cells: figure(cells.round(), of_cells),
             est_mhz: figure(mhz, of_mhz),

@@ -1,6 +1,6 @@
 //! How right the outputs of a machine are, and how many fraction bits its screen needs.
 
-use edgewalk_machine::{Channel, Fill, Plan};
+use edgewalk_machine::{Channel, Fill, NoBound, Plan};
 use edgewalk_numerics::solver::solve;
 use edgewalk_numerics::{ChannelBits, Dyadic, Rounding, Solution, Target};
 use serde::Serialize;
@@ -18,7 +18,7 @@ pub struct Precision {
 /// What is proved of a channel.
 #[derive(Serialize)]
 struct Proof {
-    /// Largest error of the output, LSB; none where it may wrap.
+    /// Largest error of the stored value in every frame, LSB.
     bound: Option<f64>,
     /// Why there is none.
     no_bound: Option<String>,
@@ -37,14 +37,14 @@ impl Precision {
     pub fn of(machine: &Plan) -> Self {
         Precision {
             additions: machine.screen().to_string(),
-            z: Proof::of(machine, machine.channels()[0], "z"),
-            color: Proof::of(machine, machine.channels()[1], "color"),
+            z: Proof::of(machine, 0, "z"),
+            color: Proof::of(machine, 1, "color"),
         }
     }
 
-    /// Largest errors of depth and colour, LSB; none where the output may wrap.
-    pub fn bounds(&self) -> [Option<f64>; 2] {
-        [self.z.bound, self.color.bound]
+    /// Largest errors of stored depth and colour, LSB, and why there is none.
+    pub fn bounds(&self) -> [(Option<f64>, Option<&str>); 2] {
+        [&self.z, &self.color].map(|proof| (proof.bound, proof.no_bound.as_deref()))
     }
 
     /// As lines of text. Writing to a string cannot fail.
@@ -83,15 +83,29 @@ impl Precision {
 }
 
 impl Proof {
-    fn of(machine: &Plan, channel: Channel, name: &str) -> Self {
-        let budget = machine.proved_budget(&channel);
-        let solved = needed(machine, channel, name);
+    fn of(machine: &Plan, place: usize, name: &str) -> Self {
+        let (channel, bound) = (machine.channels()[place], machine.proved_output(place));
+        let own = channel.error_budget(machine.max_steps()).after_rounding().to_f64();
+        let solved = match bound {
+            Err(
+                why @ (NoBound::Shaded
+                | NoBound::Bilinear
+                | NoBound::Layered { .. }
+                | NoBound::Polygons { .. }),
+            ) => Err(why.to_string()),
+            Ok(bound) if bound >= own + 0.5 => Err(format!(
+                "the units behind the interpolator may err by {:.4} LSB; `edgewalk size --error` takes more than 1 LSB",
+                bound - own
+            )),
+            // More bits may give the bound that is missing.
+            Ok(_) | Err(NoBound::Wraps { .. } | NoBound::Textbook) => needed(machine, channel, name),
+        };
         // A vertex has no more fraction bits than the interpolator.
         let bits = solved.as_ref().ok().map(|solution| solution.fraction_bits.max(channel.vertex_fraction));
         let witness = solved.as_ref().ok().filter(|solution| Some(solution.fraction_bits) == bits);
         Proof {
-            bound: budget.ok().map(|budget| budget.after_rounding().to_f64()),
-            no_bound: budget.err().map(|why| why.to_string()),
+            bound: bound.ok(),
+            no_bound: bound.err().map(|why| why.to_string()),
             fraction_bits: channel.fraction,
             needed_fraction_bits: bits,
             one_bit_fewer: witness

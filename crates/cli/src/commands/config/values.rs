@@ -23,8 +23,10 @@ pub struct Consequence {
     /// Clocks that a triangle's setup takes at most.
     #[serde(skip_serializing_if = "Option::is_none")]
     setup_clocks: Option<u32>,
-    /// Largest errors of depth and colour, LSB, proved; null where they may wrap.
+    /// Largest errors of depth and colour in every frame, LSB, proved.
     bounds: [Option<f64>; 2],
+    /// Why there is none.
+    no_bounds: [Option<String>; 2],
     /// What `edgewalk estimate` says.
     estimate: Value,
 }
@@ -55,7 +57,10 @@ pub fn consequences(machine: &Plan, key: &Key) -> Vec<Consequence> {
             refused: built.as_ref().err().map(ToString::to_string),
             clocks_per_pixel: plan.map(|plan| plan.clocks_per_pixel()),
             setup_clocks: plan.map(|plan| edgewalk_model::longest_setup(plan).all()),
-            bounds: proofs.map_or([None; 2], |proofs| proofs.bounds()),
+            bounds: proofs.as_ref().map_or([None; 2], |proofs| proofs.bounds().map(|(bound, _)| bound)),
+            no_bounds: proofs
+                .as_ref()
+                .map_or([None, None], |proofs| proofs.bounds().map(|(_, why)| why.map(str::to_owned))),
             estimate: plan.map_or(Value::Null, |plan| estimator.value(plan)),
         }
     };
@@ -77,7 +82,7 @@ pub fn text(all: &[Consequence]) -> String {
         }
         let whole = |value: Option<u32>| value.map_or_else(|| "-".to_owned(), |value| value.to_string());
         let bounds =
-            of.bounds.map(|bound| bound.map_or_else(|| "may wrap".to_owned(), |bound| format!("{bound:.4}")));
+            of.bounds.map(|bound| bound.map_or_else(|| "none".to_owned(), |bound| format!("{bound:.4}")));
         let estimated = |at: &str| {
             of.estimate
                 .pointer(at)
@@ -97,5 +102,15 @@ pub fn text(all: &[Consequence]) -> String {
             estimated("/est_mhz/value"),
         );
     }
-    t + "  * this machine; bounds in LSB, proved; est_* by `edgewalk estimate`, of an iCE40\n"
+    t += "  * this machine; bounds in LSB, proved; est_* by `edgewalk estimate`, of an iCE40\n";
+    let mut told = Vec::new();
+    for (bound, why) in all.iter().flat_map(|of| ["z", "rgb"].into_iter().zip(&of.no_bounds)) {
+        if let Some(why) = why
+            && !told.contains(&(bound, why))
+        {
+            _ = writeln!(t, "  no {bound} bound: {why}");
+            told.push((bound, why));
+        }
+    }
+    t
 }

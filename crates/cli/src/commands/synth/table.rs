@@ -77,7 +77,7 @@ fn outcome(text: &mut String, unit: &str, of: &Outcome) {
 }
 
 fn row(text: &mut String, name: &str, cells: &Cells) {
-    let Cells { lut4, carry, ff, ram, dsp, mux } = cells;
+    let Cells { lut4, carry, ff, ram, dsp, mux, .. } = cells;
     _ = writeln!(text, "    {name:<12}{lut4:>7}{carry:>7}{ff:>7}{ram:>6}{dsp:>6}{mux:>7}");
 }
 

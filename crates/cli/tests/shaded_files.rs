@@ -1,0 +1,114 @@
+//! `edgewalk triangles --shading phong`: the file draws the picture of its scene, or there is no file.
+
+use crate::support::run;
+
+const SMALL: [&str; 5] = ["--adapt", "--set", "screen.width=61", "--set", "screen.height=47"];
+
+/// A material of one triangle under one light; a case adds what a file may not be able to say.
+fn scene(top: &str, material: &str, light: &str) -> String {
+    format!(
+        "{top}\n[[material]]\nname = \"m\"\n{material}\n[[object]]\npositions = [[0, 0, 0], [1, 0, 0], [0, 1, 0]]\n\
+         faces = [[0, 1, 2]]\nmaterial = \"m\"\n[[light]]\n{light}\n"
+    )
+}
+
+const LIGHT: &str = "kind = \"directional\"\ntoward = [0.2, 0.3, 1]\nintensity = 0.6";
+
+#[test]
+fn files_of_shaded_scenes_draw_their_pictures() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    // Ambient light that is not 1, a highlight in grey, a colour; an exponent that says nothing.
+    let own = scene("ambient = 0.3", "diffuse = [0.2, 0.5, 0.9]\nspecular = 0.4\nexponent = 9", LIGHT);
+    std::fs::write(folder.join("a.toml"), own).unwrap();
+    let matte = scene("ambient = 0", "diffuse = 0.9\nexponent = 0", LIGHT);
+    std::fs::write(folder.join("b.toml"), matte).unwrap();
+    let mut checked = 0;
+    // The terrain's four materials take turns 900 times.
+    for input in ["a.toml", "b.toml", "sphere", "room", "terrain"] {
+        let of = |command: &[&str]| {
+            let all = [command, &SMALL, &["-q"]].concat();
+            assert_eq!(run(folder, &all), (Some(0), String::new()), "{all:?}");
+        };
+        of(&["triangles", input, "--shading", "phong", "--out", "k.tri"]);
+        of(&["render", input, "--shading", "phong", "--out", "scene"]);
+        of(&["render", "k.tri", "--out", "file"]);
+        for picture in ["image.png", "golden.png"] {
+            let of = |out: &str| std::fs::read(folder.join(out).join(picture)).unwrap();
+            assert!(of("scene") == of("file"), "{input}: {picture}");
+            checked += 1;
+        }
+    }
+    println!("{checked} / 10 pictures of files are those of their scenes");
+    assert_eq!(checked, 10);
+}
+
+#[test]
+fn scenes_that_files_cannot_say_are_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    let matte = "diffuse = 0.8";
+    let point = "kind = \"positional\"\nposition = [0, 0, 2]";
+    let tinted = "kind = \"directional\"\ntoward = [0, 0, 1]\nintensity = [0.6, 0.5, 0.4]";
+    let colors = "one number for red, green and blue";
+    let far = "infinitely far away";
+    let cases = [
+        ("phong", scene("ambient = [0.2, 0.1, 0.1]", matte, LIGHT), "ambient light is 0.2 0.1 0.1", colors),
+        ("phong", scene("ambient = 200", matte, LIGHT), "ambient light is 200 200 200", "0 to 100"),
+        ("phong", scene("", matte, tinted), "a light's intensity is 0.6 0.5 0.4", colors),
+        ("phong", scene("", matte, point), "a light stands at 0 0 2", far),
+        ("phong", scene("", "emission = 0.25", LIGHT), "the emission 0.25 0.25 0.25", "has none"),
+        (
+            "phong",
+            scene("", "diffuse = 0.5\nambient = [0.1, 0, 0]", LIGHT),
+            "ambient coefficient is 0.1 0 0",
+            colors,
+        ),
+        (
+            "phong",
+            scene("", "specular = [0.5, 0.4, 0.3]", LIGHT),
+            "specular coefficient is 0.5 0.4 0.3",
+            colors,
+        ),
+        ("phong", scene("", "specular = 0.5\nexponent = 2000", LIGHT), "exponent is 2000", "1 to 1024"),
+        ("phong", scene("", "waves = 4\ntexels = \"nearest\"", LIGHT), "a relief", "has none"),
+        ("fast-phong", scene("", matte, LIGHT), "the viewer stands at ", far),
+    ];
+    for (shading, text, found, permitted) in &cases {
+        std::fs::write(folder.join("a.toml"), text).unwrap();
+        let arguments =
+            [&["triangles", "a.toml", "--shading", shading, "--out", "k.tri"][..], &SMALL].concat();
+        let (code, error) = run(folder, &arguments);
+        assert_eq!(code, Some(2), "{text}{error}");
+        let instead = format!("edgewalk render a.toml --shading {shading} --engine golden");
+        for words in [found, permitted, "take --shading", instead.as_str()] {
+            assert!(error.contains(words), "{words:?} is not in {error:?}");
+        }
+        assert!(!folder.join("k.tri").exists(), "{text}");
+    }
+    println!("{} / 10 scenes refused", cases.len());
+    assert_eq!(cases.len(), 10);
+}
+
+#[test]
+fn too_many_surfaces_name_what_is_possible() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    let mut text = "size 61 47\nmode phong\nview 0 0 1\nmaterial 0 0.5 0 1\n".to_owned();
+    for color in 0..300 {
+        let vertex = |x, y| format!("{x} {y} 0.5 {0} 0 0 0", f64::from(color) / 300.0);
+        text += &format!("T {} {} {}\nN 0 0 1 0 0 1 0 0 1\n", vertex(1, 1), vertex(60, 1), vertex(1, 46));
+    }
+    let error = |text: &str| {
+        std::fs::write(folder.join("k.tri"), text).unwrap();
+        let (code, error) = run(folder, &["raster", "k.tri", "--adapt", "--out", "out"]);
+        assert_eq!(code, Some(2), "{error}");
+        error
+    };
+    let many = error(&text);
+    assert!(many.contains("300 surfaces") && many.contains("shade.material_bits=8 for 256;"), "{many}");
+    assert!(many.contains("add --set shade.colour=multiply") && !many.contains("material_bits=9"), "{many}");
+    let line = text.match_indices("\nT").nth(100).unwrap().0;
+    let few = error(&text[..=line]);
+    assert!(few.contains("add --set shade.material_bits=7 or --set shade.colour=multiply"), "{few}");
+}
