@@ -16,7 +16,7 @@ pub struct Cells {
     pub ff: u64,
     /// Memories: blocks, and on ECP5 those of 16 words in look-up tables.
     pub ram: u64,
-    /// Those of `ram` that lie in look-up tables.
+    /// Memories of `ram` in look-up tables.
     #[serde(skip)]
     pub distributed: u64,
     /// Multipliers.

@@ -29,7 +29,7 @@ pub struct Estimate {
     pub est_ff: u64,
     /// Memories, as Yosys counts them: blocks, and on an ECP5 those of 16 words of 4 bits in look-up tables.
     pub est_ram: u64,
-    /// Those of `est_ram` that are memory blocks.
+    /// Memory blocks among `est_ram`.
     #[serde(skip)]
     pub blocks: u64,
     /// Multipliers, as Yosys counts them. On an iCE40 products are look-up tables.
