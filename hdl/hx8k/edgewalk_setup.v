@@ -9,7 +9,8 @@
 //
 // Formats: see the ports; in centre coordinates pixel centres lie on whole numbers.
 // Timing: a word names a row in its first clock, does its step in the second; in the third A and W are written, and leave.
-// Rules: section 2 of the specification prints the program.
+// Rules: docs/machine.md, section 2, prints the program and says what each clause of a word does. A name of a code is the
+// part of the word and the clause: ACT_SIDE is `side`, JUMP_NEGATIVE is `negative l`, GIVE_QF is `give qf`.
 
 `timescale 1ns / 1ps
 `default_nettype none
@@ -342,6 +343,58 @@ module edgewalk_setup (
   wire [1:0] base = listing_q[12:11];
   wire [2:0] mode = listing_q[10:8];
   wire [7:0] row = listing_q[7:0];
+
+  // Codes of the clauses.
+  localparam [4:0] ACT_UNSORTED = 5'd1;
+  localparam [4:0] ACT_SWAP01 = 5'd2;
+  localparam [4:0] ACT_SWAP12 = 5'd3;
+  localparam [4:0] ACT_SIDE = 5'd4;
+  localparam [4:0] ACT_UPPER = 5'd5;
+  localparam [4:0] ACT_LOWER = 5'd6;
+  localparam [4:0] ACT_SHIFT = 5'd7;
+  localparam [4:0] ACT_JUDGE = 5'd8;
+  localparam [4:0] ACT_CHECK = 5'd9;
+  localparam [4:0] ACT_TIMES_T = 5'd10;
+  localparam [4:0] ACT_TIMES_K = 5'd11;
+  localparam [4:0] ACT_SCALE = 5'd12;
+  localparam [4:0] ACT_LAST_ROUND = 5'd13;
+  localparam [4:0] ACT_BESIDE = 5'd17;
+  localparam [4:0] ACT_ALONE = 5'd18;
+  localparam [4:0] ACT_DROP_LINES = 5'd19;
+  localparam [4:0] ACT_DROP_COLUMNS = 5'd20;
+  localparam [4:0] ACT_DROP_AREA = 5'd21;
+  localparam [4:0] ACT_DONE = 5'd22;
+  localparam [3:0] JUMP_WORDS = 4'd1;
+  localparam [3:0] JUMP_ROOM = 4'd2;
+  localparam [3:0] JUMP_SETTLE = 4'd3;
+  localparam [3:0] JUMP_DIGITS = 4'd4;
+  localparam [3:0] JUMP_AGAIN = 4'd5;
+  localparam [3:0] JUMP_ZEROS = 4'd6;
+  localparam [3:0] JUMP_MORE = 4'd7;
+  localparam [3:0] JUMP_NEGATIVE = 4'd8;
+  localparam [3:0] JUMP_UNFIT = 4'd9;
+  localparam [3:0] JUMP_ROUNDS = 4'd12;
+  localparam [3:0] JUMP_GOTO = 4'd13;
+  localparam [3:0] JUMP_CALL = 4'd14;
+  localparam [3:0] JUMP_RETURN = 4'd15;
+  localparam [3:0] GIVE_JM = 4'd1;
+  localparam [3:0] GIVE_N1 = 4'd2;
+  localparam [3:0] GIVE_N2 = 4'd3;
+  localparam [3:0] GIVE_M = 4'd4;
+  localparam [3:0] GIVE_QF = 4'd5;
+  localparam [3:0] GIVE_R = 4'd6;
+  localparam [3:0] GIVE_C = 4'd7;
+  localparam [3:0] GIVE_START = 4'd8;
+  localparam [3:0] GIVE_D0 = 4'd9;
+  localparam [3:0] GIVE_D1 = 4'd10;
+  localparam [3:0] GIVE_G = 4'd11;
+  localparam [2:0] MODE_DIGITS = 3'd1;
+  localparam [2:0] MODE_EDGE = 3'd2;
+  localparam [2:0] MODE_NUMBER = 3'd3;
+  localparam [2:0] MODE_PASS = 3'd4;
+  localparam [2:0] MODE_VERTEX = 3'd5;
+  localparam [2:0] MODE_UPPER = 3'd6;
+  localparam [2:0] MODE_LOWER = 3'd7;
   reg runs;  // the first word is there
 
   always @(posedge clk) begin
@@ -373,7 +426,7 @@ module edgewalk_setup (
   // Counters and flags.
   reg full;                                    // a triangle is there, and worked on
   reg prim_there;                              // a prim is offered
-  wire done = (act == 5'd22) && runs;
+  wire done = (act == ACT_DONE) && runs;
   reg leaves;                                  // the prim is offered for the first time
   wire idle = !full && !leaves;
   wire lane0_is_negative;
@@ -404,8 +457,8 @@ module edgewalk_setup (
   wire ends = top || is_last;
   wire by_four = skips && !top4 && (left > 5'd4);
   wire by_one = skips && !ends && !by_four;
-  wire consumes = (jump == 4'd4) || (jump == 4'd7) || ((jump == 4'd6) && zero);  // the digits are done
-  wire shifts = consumes || (act == 5'd7);
+  wire consumes = (jump == JUMP_DIGITS) || (jump == JUMP_MORE) || ((jump == JUMP_ZEROS) && zero);  // the digits are done
+  wire shifts = consumes || (act == ACT_SHIFT);
   wire [23:0] lane0_factor;
   wire [23:0] lane1_factor;
   wire [23:0] lane2_factor;
@@ -438,43 +491,43 @@ module edgewalk_setup (
   end
 
   always @(posedge clk) begin
-    if ((act == 5'd4) && runs) right <= lane0_is_negative;
+    if ((act == ACT_SIDE) && runs) right <= lane0_is_negative;
   end
 
   always @(posedge clk) begin
-    if ((act == 5'd5) && runs) upper <= !lane0_is_negative;
+    if ((act == ACT_UPPER) && runs) upper <= !lane0_is_negative;
   end
 
   always @(posedge clk) begin
-    if ((act == 5'd6) && runs) lower <= !lane0_is_negative;
+    if ((act == ACT_LOWER) && runs) lower <= !lane0_is_negative;
   end
 
   always @(posedge clk) begin
     if (rst) begin
       beside <= 1'b0;
     end else begin
-      if ((act == 5'd17) && runs) beside <= 1'b1;
-      if ((act == 5'd18) && runs) beside <= 1'b0;
+      if ((act == ACT_BESIDE) && runs) beside <= 1'b1;
+      if ((act == ACT_ALONE) && runs) beside <= 1'b0;
     end
   end
 
-  wire both = (act == 5'd2) && lane0_is_negative;
+  wire both = (act == ACT_SWAP01) && lane0_is_negative;
 
   always @(posedge clk) begin
-    if (act == 5'd1) place0 <= 2'd0;
+    if (act == ACT_UNSORTED) place0 <= 2'd0;
     if (both) place0 <= place1;
   end
 
-  wire both_2 = (act == 5'd3) && lane0_is_negative;
+  wire both_2 = (act == ACT_SWAP12) && lane0_is_negative;
 
   always @(posedge clk) begin
-    if (act == 5'd1) place1 <= 2'd1;
+    if (act == ACT_UNSORTED) place1 <= 2'd1;
     if (both) place1 <= place0;
     if (both_2) place1 <= place2;
   end
 
   always @(posedge clk) begin
-    if (act == 5'd1) place2 <= 2'd2;
+    if (act == ACT_UNSORTED) place2 <= 2'd2;
     if (both_2) place2 <= place1;
   end
 
@@ -530,7 +583,7 @@ module edgewalk_setup (
   end
 
   always @(posedge clk) begin
-    checks <= act == 5'd9;
+    checks <= act == ACT_CHECK;
     checked <= checks;
   end
 
@@ -541,48 +594,50 @@ module edgewalk_setup (
 
   always @(posedge clk) begin
     if (checked && either_6) unfit <= 1'b1;
-    if (act == 5'd8) unfit <= 1'b0;
+    if (act == ACT_JUDGE) unfit <= 1'b0;
   end
 
   always @(posedge clk) begin
-    if ((act == 5'd13) && runs) scale <= 7'd0;
-    if ((act == 5'd12) && runs) scale <= scale + 7'd3;
+    if ((act == ACT_LAST_ROUND) && runs) scale <= 7'd0;
+    if ((act == ACT_SCALE) && runs) scale <= scale + 7'd3;
   end
 
   always @(posedge clk) begin
-    if (jump == 4'd5) count <= count - 7'd1;
-    if (act == 5'd10) count <= 7'd8;
-    if (act == 5'd11) count <= 7'd18 + scale;
+    if (jump == JUMP_AGAIN) count <= count - 7'd1;
+    if (act == ACT_TIMES_T) count <= 7'd8;
+    if (act == ACT_TIMES_K) count <= 7'd18 + scale;
   end
 
   always @(posedge clk) begin
-    if (act == 5'd10) of_channels <= 1'b0;
-    if (act == 5'd11) of_channels <= 1'b1;
+    if (act == ACT_TIMES_T) of_channels <= 1'b0;
+    if (act == ACT_TIMES_K) of_channels <= 1'b1;
   end
 
   // The next word.
   reg [7:0] place;  // of the word that is executed
   wire [7:0] behind = place + 8'd1;
   reg [7:0] link;   // of the word behind the call
-  wire repeats = ((jump == 4'd1) && !full)
-              || ((jump == 4'd2) && prim_there)
-              || ((jump == 4'd3) && (skips || loads_g))
-              || ((jump == 4'd4) && !is_last)
-              || ((jump == 4'd5) && !(count == 7'd1))
-              || ((jump == 4'd6) && zero && !is_last);
-  wire jumps = (jump == 4'd13)
-            || (jump == 4'd14)
-            || ((jump == 4'd6) && zero && is_last)
-            || ((jump == 4'd7) && !is_last)
-            || ((jump == 4'd8) && lane0_is_negative)
-            || ((jump == 4'd9) && unfit)
-            || ((jump == 4'd10) && !upper)
-            || ((jump == 4'd11) && !lower);
-  wire [7:0] choice = repeats ? place : (jump == 4'd15) ? link : jumps ? target : behind;
+  localparam [3:0] JUMP_NO_UPPER = 4'd10;
+  localparam [3:0] JUMP_NO_LOWER = 4'd11;
+  wire repeats = ((jump == JUMP_WORDS) && !full)
+              || ((jump == JUMP_ROOM) && prim_there)
+              || ((jump == JUMP_SETTLE) && (skips || loads_g))
+              || ((jump == JUMP_DIGITS) && !is_last)
+              || ((jump == JUMP_AGAIN) && !(count == 7'd1))
+              || ((jump == JUMP_ZEROS) && zero && !is_last);
+  wire jumps = (jump == JUMP_GOTO)
+            || (jump == JUMP_CALL)
+            || ((jump == JUMP_ZEROS) && zero && is_last)
+            || ((jump == JUMP_MORE) && !is_last)
+            || ((jump == JUMP_NEGATIVE) && lane0_is_negative)
+            || ((jump == JUMP_UNFIT) && unfit)
+            || ((jump == JUMP_NO_UPPER) && !upper)
+            || ((jump == JUMP_NO_LOWER) && !lower);
+  wire [7:0] choice = repeats ? place : (jump == JUMP_RETURN) ? link : jumps ? target : behind;
   assign next_place = choice & {8{runs}};
 
   always @(posedge clk) begin
-    if (jump == 4'd14) link <= behind;
+    if (jump == JUMP_CALL) link <= behind;
   end
 
   always @(posedge clk) begin
@@ -620,7 +675,10 @@ module edgewalk_setup (
     if (rst) begin
       full <= 1'b0;
     end else begin
-      if (done || ((act == 5'd19) && runs) || ((act == 5'd20) && runs) || ((act == 5'd21) && runs)) begin
+      if (done
+       || ((act == ACT_DROP_LINES) && runs)
+       || ((act == ACT_DROP_COLUMNS) && runs)
+       || ((act == ACT_DROP_AREA) && runs)) begin
         full <= 1'b0;
       end
       if (last) full <= 1'b1;
@@ -643,44 +701,47 @@ module edgewalk_setup (
   reg write_w_now;
   reg step_raised;
   reg does_step;
+  wire either_7 = (mode == MODE_VERTEX) || (mode == MODE_UPPER) || (mode == MODE_LOWER);
   wire [1:0] choice_3 = beside ? 2'd0 : 2'd0;
-  wire [1:0] choice_2 = (mode == 3'd6) ? {1'b0, choice_3 == 2'd2}
-                      : (mode == 3'd7) ? ((choice_3 == 2'd1) ? 2'd1 : 2'd2)
+  wire [1:0] choice_2 = (mode == MODE_UPPER) ? {1'b0, choice_3 == 2'd2}
+                      : (mode == MODE_LOWER) ? ((choice_3 == 2'd1) ? 2'd1 : 2'd2)
                       : row[5:4];
   wire [1:0] choice_4 = (choice_2 == 2'd0) ? place0
                       : (choice_2 == 2'd1) ? place1
                       : (choice_2 == 2'd2) ? place2
                       : 2'd3;
-  wire [7:0] row0 = ((mode == 3'd5) || (mode == 3'd6) || (mode == 3'd7)) ? {2'd2, choice_4, (&row[3:0]) ? 4'd2 : row[3:0]}
-                  : (mode == 3'd1) ? {row[7:2], {f0[23], g0[23]}}
-                  : (mode == 3'd2) ? {row[7:2], choice_3}
-                  : (mode == 3'd4) ? {row[7:2], row[1], 1'b0}
+  wire [7:0] row0 = either_7 ? {2'd2, choice_4, (&row[3:0]) ? 4'd2 : row[3:0]}
+                  : (mode == MODE_DIGITS) ? {row[7:2], {f0[23], g0[23]}}
+                  : (mode == MODE_EDGE) ? {row[7:2], choice_3}
+                  : (mode == MODE_PASS) ? {row[7:2], row[1], 1'b0}
                   : row;
+  wire either_8 = (mode == MODE_VERTEX) || (mode == MODE_UPPER) || (mode == MODE_LOWER);
   wire [1:0] choice_6 = beside ? 2'd1 : 2'd0;
-  wire [1:0] choice_5 = (mode == 3'd6) ? {1'b0, choice_6 == 2'd2}
-                      : (mode == 3'd7) ? ((choice_6 == 2'd1) ? 2'd1 : 2'd2)
+  wire [1:0] choice_5 = (mode == MODE_UPPER) ? {1'b0, choice_6 == 2'd2}
+                      : (mode == MODE_LOWER) ? ((choice_6 == 2'd1) ? 2'd1 : 2'd2)
                       : row[5:4];
   wire [1:0] choice_7 = (choice_5 == 2'd0) ? place0
                       : (choice_5 == 2'd1) ? place1
                       : (choice_5 == 2'd2) ? place2
                       : 2'd3;
-  wire [7:0] row1 = ((mode == 3'd5) || (mode == 3'd6) || (mode == 3'd7)) ? {2'd2, choice_7, (&row[3:0]) ? 4'd2 : row[3:0]}
-                  : (mode == 3'd1) ? {row[7:2], beside ? {f1[23], g1[23]} : {f0[23], g0[23]}}
-                  : (mode == 3'd2) ? {row[7:2], choice_6}
-                  : (mode == 3'd4) ? {row[7:2], row[1], 1'b0}
+  wire [7:0] row1 = either_8 ? {2'd2, choice_7, (&row[3:0]) ? 4'd2 : row[3:0]}
+                  : (mode == MODE_DIGITS) ? {row[7:2], beside ? {f1[23], g1[23]} : {f0[23], g0[23]}}
+                  : (mode == MODE_EDGE) ? {row[7:2], choice_6}
+                  : (mode == MODE_PASS) ? {row[7:2], row[1], 1'b0}
                   : row;
+  wire either_9 = (mode == MODE_VERTEX) || (mode == MODE_UPPER) || (mode == MODE_LOWER);
   wire [1:0] choice_9 = beside ? 2'd2 : 2'd0;
-  wire [1:0] choice_8 = (mode == 3'd6) ? {1'b0, choice_9 == 2'd2}
-                      : (mode == 3'd7) ? ((choice_9 == 2'd1) ? 2'd1 : 2'd2)
+  wire [1:0] choice_8 = (mode == MODE_UPPER) ? {1'b0, choice_9 == 2'd2}
+                      : (mode == MODE_LOWER) ? ((choice_9 == 2'd1) ? 2'd1 : 2'd2)
                       : row[5:4];
   wire [1:0] choice_10 = (choice_8 == 2'd0) ? place0
                        : (choice_8 == 2'd1) ? place1
                        : (choice_8 == 2'd2) ? place2
                        : 2'd3;
-  wire [7:0] row2 = ((mode == 3'd5) || (mode == 3'd6) || (mode == 3'd7)) ? {2'd2, choice_10, (&row[3:0]) ? 4'd2 : row[3:0]}
-                  : (mode == 3'd1) ? {row[7:2], beside ? {f2[23], g2[23]} : {f0[23], g0[23]}}
-                  : (mode == 3'd2) ? {row[7:2], choice_9}
-                  : (mode == 3'd4) ? {row[7:2], row[1], 1'b0}
+  wire [7:0] row2 = either_9 ? {2'd2, choice_10, (&row[3:0]) ? 4'd2 : row[3:0]}
+                  : (mode == MODE_DIGITS) ? {row[7:2], beside ? {f2[23], g2[23]} : {f0[23], g0[23]}}
+                  : (mode == MODE_EDGE) ? {row[7:2], choice_9}
+                  : (mode == MODE_PASS) ? {row[7:2], row[1], 1'b0}
                   : row;
 
   always @(posedge clk) begin
@@ -827,90 +888,90 @@ module edgewalk_setup (
   end
 
   always @(posedge clk) begin
-    if (result_given == 4'd1) prim_jm <= lane0_rest[16:8];
+    if (result_given == GIVE_JM) prim_jm <= lane0_rest[16:8];
   end
 
   always @(posedge clk) begin
-    if (result_given == 4'd2) prim_n1 <= lane0_rest[17:8];
+    if (result_given == GIVE_N1) prim_n1 <= lane0_rest[17:8];
   end
 
   always @(posedge clk) begin
-    if (result_given == 4'd3) prim_n2 <= lane0_rest[17:8];
+    if (result_given == GIVE_N2) prim_n2 <= lane0_rest[17:8];
   end
 
   always @(posedge clk) begin
-    if (result_given == 4'd4) prim_major_m <= lane0_rest[21:0];
+    if (result_given == GIVE_M) prim_major_m <= lane0_rest[21:0];
   end
 
   always @(posedge clk) begin
-    if (result_given == 4'd5) begin
+    if (result_given == GIVE_QF) begin
       prim_major_q <= lane0_whole[14:0];
       prim_major_f <= lane0_rest[29:8];
     end
   end
 
   always @(posedge clk) begin
-    if (result_given == 4'd6) prim_major_dist <= lane0_rest[29:8];
+    if (result_given == GIVE_R) prim_major_dist <= lane0_rest[29:8];
   end
 
   always @(posedge clk) begin
-    if (result_given == 4'd7) prim_major_c <= lane0_rest[22:8];
+    if (result_given == GIVE_C) prim_major_c <= lane0_rest[22:8];
   end
 
   always @(posedge clk) begin
-    if (result_given == 4'd4) prim_minor1_m <= lane1_rest[21:0];
-    if ((result_given == 4'd4) && !upper) prim_minor1_m <= 22'd0;
+    if (result_given == GIVE_M) prim_minor1_m <= lane1_rest[21:0];
+    if ((result_given == GIVE_M) && !upper) prim_minor1_m <= 22'd0;
   end
 
   always @(posedge clk) begin
-    if (result_given == 4'd5) begin
+    if (result_given == GIVE_QF) begin
       prim_minor1_q <= lane1_whole[14:0];
       prim_minor1_f <= lane1_rest[29:8];
     end
-    if ((result_given == 4'd5) && !upper) begin
+    if ((result_given == GIVE_QF) && !upper) begin
       prim_minor1_q <= 15'd0;
       prim_minor1_f <= 22'd0;
     end
   end
 
   always @(posedge clk) begin
-    if (result_given == 4'd6) prim_minor1_dist <= lane1_rest[29:8];
-    if ((result_given == 4'd6) && !upper) prim_minor1_dist <= 22'd0;
+    if (result_given == GIVE_R) prim_minor1_dist <= lane1_rest[29:8];
+    if ((result_given == GIVE_R) && !upper) prim_minor1_dist <= 22'd0;
   end
 
   always @(posedge clk) begin
-    if (result_given == 4'd7) prim_minor1_c <= lane1_rest[22:8];
-    if ((result_given == 4'd7) && !upper) prim_minor1_c <= 15'd0;
+    if (result_given == GIVE_C) prim_minor1_c <= lane1_rest[22:8];
+    if ((result_given == GIVE_C) && !upper) prim_minor1_c <= 15'd0;
   end
 
   always @(posedge clk) begin
-    if (result_given == 4'd4) prim_minor2_m <= lane2_rest[21:0];
-    if ((result_given == 4'd4) && !lower) prim_minor2_m <= 22'd0;
+    if (result_given == GIVE_M) prim_minor2_m <= lane2_rest[21:0];
+    if ((result_given == GIVE_M) && !lower) prim_minor2_m <= 22'd0;
   end
 
   always @(posedge clk) begin
-    if (result_given == 4'd5) begin
+    if (result_given == GIVE_QF) begin
       prim_minor2_q <= lane2_whole[14:0];
       prim_minor2_f <= lane2_rest[29:8];
     end
-    if ((result_given == 4'd5) && !lower) begin
+    if ((result_given == GIVE_QF) && !lower) begin
       prim_minor2_q <= 15'd0;
       prim_minor2_f <= 22'd0;
     end
   end
 
   always @(posedge clk) begin
-    if (result_given == 4'd6) prim_minor2_dist <= lane2_rest[29:8];
-    if ((result_given == 4'd6) && !lower) prim_minor2_dist <= 22'd0;
+    if (result_given == GIVE_R) prim_minor2_dist <= lane2_rest[29:8];
+    if ((result_given == GIVE_R) && !lower) prim_minor2_dist <= 22'd0;
   end
 
   always @(posedge clk) begin
-    if (result_given == 4'd7) prim_minor2_c <= lane2_rest[22:8];
-    if ((result_given == 4'd7) && !lower) prim_minor2_c <= 15'd0;
+    if (result_given == GIVE_C) prim_minor2_c <= lane2_rest[22:8];
+    if ((result_given == GIVE_C) && !lower) prim_minor2_c <= 15'd0;
   end
 
   always @(posedge clk) begin
-    if (result_given == 4'd8) begin
+    if (result_given == GIVE_START) begin
       prim_z_start <= lane0_whole[45:8];
       prim_r_start <= lane1_whole[29:8];
       prim_g_start <= lane2_whole[29:8];
@@ -919,7 +980,7 @@ module edgewalk_setup (
   end
 
   always @(posedge clk) begin
-    if (result_given == 4'd9) begin
+    if (result_given == GIVE_D0) begin
       prim_z_d0 <= lane0_whole[38:1];
       prim_r_d0 <= lane1_whole[22:1];
       prim_g_d0 <= lane2_whole[22:1];
@@ -928,7 +989,7 @@ module edgewalk_setup (
   end
 
   always @(posedge clk) begin
-    if (result_given == 4'd10) begin
+    if (result_given == GIVE_D1) begin
       prim_z_d1 <= lane0_whole[38:1];
       prim_r_d1 <= lane1_whole[22:1];
       prim_g_d1 <= lane2_whole[22:1];
@@ -937,7 +998,7 @@ module edgewalk_setup (
   end
 
   always @(posedge clk) begin
-    if (result_given == 4'd11) begin
+    if (result_given == GIVE_G) begin
       prim_z_g <= lane0_whole[38:1];
       prim_r_g <= lane1_whole[22:1];
       prim_g_g <= lane2_whole[22:1];
@@ -950,8 +1011,8 @@ module edgewalk_setup (
 
   // Not needed, on purpose.
   wire unused = &{
-    1'b0, write_numbered, of_channels, lane0_rest[45:30], lane1_rest[45:30], lane2_rest[45:30],
-    lane3_whole[0]
+    1'b0, write_numbered, JUMP_ROUNDS, MODE_NUMBER, of_channels, lane0_rest[45:30], lane1_rest[45:30],
+    lane2_rest[45:30], lane3_whole[0]
   };
 
 endmodule

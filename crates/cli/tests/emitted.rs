@@ -227,3 +227,53 @@ fn comments_of_words_tell_number_and_formats() {
     );
     assert!(manifest.contains("to the formats of the words of in_data,"), "{manifest:.3000}");
 }
+
+/// In a sequenced SETUP no part of a word is compared with a bare number, and each name has the value of its clause: the one
+/// that stands in the ROM's words with this clause, and in no others.
+#[test]
+fn codes_of_the_program_have_names() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    let mut checked = 0;
+    for machine in ["hx8k", "up5k"] {
+        emit(folder, &["--machine", machine]);
+        let setup = text(folder, "hdl/edgewalk_setup.v");
+        for part in ["act", "jump", "mode", "result_given"] {
+            let bare = setup.lines().find(|line| {
+                line.match_indices(&format!("({part} == ")).any(|(at, found)| {
+                    line[at + found.len()..].starts_with(|first: char| first.is_ascii_digit())
+                })
+            });
+            assert_eq!(bare, None, "{machine}");
+        }
+        let words: Vec<(u128, Vec<&str>)> = setup.lines().filter_map(word_of_listing).collect();
+        for constant in setup.lines().filter_map(|line| line.trim().strip_prefix("localparam ")) {
+            let (name, value) = constant.split_once(" = ").unwrap();
+            let name = name.rsplit(' ').next().unwrap();
+            let Some((part @ ("ACT" | "JUMP"), clause)) = name.split_once('_') else { continue };
+            let value: u128 = value.split_once("'d").unwrap().1.trim_end_matches(';').parse().unwrap();
+            // The part's place in a word: `act = listing_q[54:50];`.
+            let place = setup.split_once(&format!(" {} = listing_q[", part.to_lowercase())).unwrap().1;
+            let (high, low) = place.split_once(']').unwrap().0.split_once(':').unwrap();
+            let (high, low): (u32, u32) = (high.parse().unwrap(), low.parse().unwrap());
+            // A jump's clause has a label behind it.
+            let clause = clause.to_lowercase().replace('_', " ");
+            let is =
+                |told: &&str| *told == clause || part == "JUMP" && told.starts_with(&format!("{clause} "));
+            for (code, clauses) in &words {
+                let part = code >> low & ((1 << (high - low + 1)) - 1);
+                assert_eq!(part == value, clauses.iter().any(is), "{machine}: {name} in {clauses:?}");
+            }
+            checked += 1;
+        }
+    }
+    println!("{checked} names");
+    assert!(checked >= 60, "{checked}");
+}
+
+/// Code and clauses of a word: `listing[0] = 55'h4000400000000;     // rest ; words ; unsorted`.
+fn word_of_listing(line: &str) -> Option<(u128, Vec<&str>)> {
+    let (code, told) = line.trim().strip_prefix("listing[")?.split_once("// ")?;
+    let code = code.split_once("'h")?.1.split(';').next()?;
+    Some((u128::from_str_radix(code, 16).ok()?, told.split(" ; ").map(str::trim).collect()))
+}

@@ -6,6 +6,8 @@ use edgewalk_machine::sequencer::word::{
     ACTS, Act, Base, Control, Corner, Factor, Give, Only, Operand, Part, Row, Sign, Word,
 };
 use edgewalk_netlist::{Module, Signal};
+use std::cell::RefCell;
+use std::collections::BTreeMap;
 
 /// Bits of the place of a row.
 pub(super) const ROW_BITS: u32 = 8;
@@ -21,7 +23,7 @@ pub(super) const FIRST_VALUE: u128 = 2;
 const VALUE: u128 = 15;
 
 /// How the place of a row follows from the word.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Debug)]
 pub(super) enum Mode {
     AsIs,
     Digits,
@@ -34,7 +36,7 @@ pub(super) enum Mode {
 }
 
 /// Which word comes next, as a number.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Debug)]
 pub(super) enum Jump {
     Next,
     Words,
@@ -55,7 +57,7 @@ pub(super) enum Jump {
 }
 
 /// The results as numbers; 0 is none.
-pub(super) fn number_of(give: Give) -> u128 {
+fn number_of(give: Give) -> u128 {
     1 + give as u128
 }
 
@@ -95,25 +97,77 @@ pub(super) fn place_bits(program: &Program) -> u32 {
 }
 
 /// A word taken apart.
-pub(super) struct Decoded<'m>(Vec<(&'static str, Signal<'m>)>);
+pub(super) struct Decoded<'m> {
+    m: &'m Module,
+    fields: Vec<(&'static str, Signal<'m>)>,
+    /// Codes by their names, as far as something is compared with them.
+    codes: RefCell<BTreeMap<String, Signal<'m>>>,
+}
 
 impl<'m> Decoded<'m> {
     pub fn get(&self, name: &str) -> Signal<'m> {
-        let found = self.0.iter().find(|(field, _)| *field == name);
+        let found = self.fields.iter().find(|(field, _)| *field == name);
         found.expect("only fields of the list are asked for").1
     }
 
     pub fn jumps(&self, jump: Jump) -> Signal<'m> {
-        self.get("jump").eq(jump as i32)
+        self.get("jump").eq(self.code("jump", &format!("{jump:?}"), jump as u128))
     }
 
     pub fn does(&self, act: Act) -> Signal<'m> {
-        self.get("act").eq(act_code(act))
+        let (word, code) = (ACTS[act_place(act)].0, act_code(act));
+        self.get("act").eq(self.code("act", word, code))
     }
 
     pub fn is_mode(&self, mode: Mode) -> Signal<'m> {
-        self.get("mode").eq(mode as i32)
+        self.get("mode").eq(self.code("mode", &format!("{mode:?}"), mode as u128))
     }
+
+    /// Names the codes that stand in the program, all at one place. Code 0 of a part is nothing to be done.
+    fn name_codes(&self, program: &Program) {
+        let words = || program.words.iter();
+        self.m.comment("Codes of the clauses.");
+        for (word, act) in ACTS.iter().filter(|(_, act)| words().any(|word| word.act == Some(*act))) {
+            self.code("act", word, act_code(*act));
+        }
+        let jumps: BTreeMap<u128, Jump> =
+            words().map(|word| jump(word.control)).map(|jump| (jump as u128, jump)).collect();
+        for (code, jump) in jumps.iter().filter(|(code, _)| **code > 0) {
+            self.code("jump", &format!("{jump:?}"), *code);
+        }
+        let gives: BTreeMap<u128, Give> =
+            words().filter_map(|word| word.give).map(|give| (number_of(give), give)).collect();
+        gives.values().for_each(|give| _ = self.result(*give));
+        let modes: BTreeMap<u128, Mode> =
+            words().filter_map(row).map(|row| row_code(row).0).map(|mode| (mode as u128, mode)).collect();
+        for (code, mode) in modes.iter().filter(|(code, _)| **code > 0) {
+            self.code("mode", &format!("{mode:?}"), *code);
+        }
+    }
+
+    /// The number of a result, for what is compared with `give`.
+    pub fn result(&self, give: Give) -> Signal<'m> {
+        self.code("give", &format!("{give:?}"), number_of(give))
+    }
+
+    /// A code of this field, `FIELD_NAME` in the Verilog.
+    fn code(&self, field: &str, name: &str, code: u128) -> Signal<'m> {
+        let name = constant_name(field, name);
+        let width = self.get(field).width();
+        *self.codes.borrow_mut().entry(name.clone()).or_insert_with(|| self.m.constant(&name, width, code))
+    }
+}
+
+/// Of a name with spaces, or in mixed case: `ACT_TIMES_T` of `times t`, `JUMP_NO_UPPER` of `NoUpper`.
+fn constant_name(field: &str, name: &str) -> String {
+    let mut made = field.to_uppercase();
+    for letter in name.chars() {
+        if letter.is_uppercase() || made.len() == field.len() {
+            made.push('_');
+        }
+        made.push(if letter == ' ' { '_' } else { letter.to_ascii_uppercase() });
+    }
+    made
 }
 
 /// The ROM; gives the word that was addressed a clock before.
@@ -131,7 +185,9 @@ pub(super) fn rom<'m>(m: &'m Module, program: &Program, next: Signal<'m>) -> Dec
         below -= bits;
         decoded.push((name, word.slice(below + bits - 1, below).named(name)));
     }
-    Decoded(decoded)
+    let decoded = Decoded { m, fields: decoded, codes: RefCell::default() };
+    decoded.name_codes(program);
+    decoded
 }
 
 /// A word of the ROM.
@@ -165,10 +221,15 @@ fn coded(program: &Program) -> (Vec<(&'static str, u32)>, Vec<RomWord>) {
     (fields, words)
 }
 
+/// The row that a word reads.
+fn row(word: &Word) -> Option<Row> {
+    word.step.map(|step| step.row).or(word.factor.map(|(_, row)| row))
+}
+
 /// The bits of a part that something depends on.
 fn used(word: &Word, field: &str) -> u128 {
     let all = |is: bool| if is { u128::MAX } else { 0 };
-    let row = word.step.map(|step| step.row).or(word.factor.map(|(_, row)| row));
+    let row = row(word);
     match field {
         "target" => all(word.control.place().is_some()),
         "write_row" | "write_numbered" => all(word.write.is_some()),
@@ -189,8 +250,7 @@ fn used(word: &Word, field: &str) -> u128 {
 
 /// A part of the word as a number.
 fn value(word: &Word, field: &str) -> u128 {
-    let row = word.step.map(|step| step.row).or(word.factor.map(|(_, row)| row));
-    let (mode, place) = row.map_or((Mode::AsIs, 0), row_code);
+    let (mode, place) = row(word).map_or((Mode::AsIs, 0), row_code);
     let step = word.step;
     let sign = |signs: &[Sign]| step.is_some_and(|step| signs.contains(&step.sign)).into();
     match field {
@@ -284,6 +344,10 @@ fn jump(control: Control) -> Jump {
 
 /// What a word does besides, as a number; 0 does nothing.
 fn act_code(act: Act) -> u128 {
-    let place = ACTS.iter().position(|(_, other)| *other == act);
-    place.expect("the list has every act") as u128 + 1
+    act_place(act) as u128 + 1
+}
+
+/// Place of an act in the list, from 0.
+fn act_place(act: Act) -> usize {
+    ACTS.iter().position(|(_, other)| *other == act).expect("the list has every act")
 }

@@ -31,7 +31,8 @@ const DOC: &str = "SETUP turns three vertices, which come word by word, into edg
 
 Formats: see the ports; in centre coordinates pixel centres lie on whole numbers.
 Timing: a word names a row in its first clock, does its step in the second; in the third A and W are written, and leave.
-Rules: section 2 of the specification prints the program.";
+Rules: docs/machine.md, section 2, prints the program and says what each clause of a word does. A name of a code is the
+part of the word and the clause: ACT_SIDE is `side`, JUMP_NEGATIVE is `negative l`, GIVE_QF is `give qf`.";
 
 /// The parts that the files of this unit share.
 struct Parts<'a, 'm> {

@@ -7,7 +7,6 @@ use edgewalk_machine::{Field, Fill};
 use edgewalk_netlist::Signal;
 
 use super::Parts;
-use super::code::number_of;
 use super::control::Control;
 use super::shape::below_column;
 use crate::wires::{Registers, parts as parts_of};
@@ -42,7 +41,7 @@ pub(super) fn results<'m>(parts: &Parts<'_, 'm>, control: &Control<'m>, fields: 
     };
     let give = behind("result", parts.word.get("give"));
     let number = control.number.map(|number| behind("number", number));
-    let gives = |what: Give| give.eq(number_of(what));
+    let gives = |what: Give| give.eq(parts.word.result(what));
     let numbered = |what: Give, place: usize| {
         number.map_or(gives(what), |number| gives(what) & number.eq(place as u128))
     };
