@@ -13,7 +13,8 @@
 //! let text = "size 16 12\nT 3 1.5 .25 1 0 0 0  13 4.75 .5 0 1 0 0  5.5 10 .5 0 0 1 0\n";
 //! let frame = triangle_file::parse("stdin", text.as_bytes())?;
 //! let machine = Machine { width: 16, height: 12, ..Machine::default() }.plan()?;
-//! let found = size(&machine, &to_port(&frame, &machine)?, 1.0)?;
+//! let port = to_port(&frame, &machine)?;
+//! let found = size(&machine, &frame, &port, 1.0)?;
 //! assert_eq!(found.guard_bits.needed, 4);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
