@@ -49,7 +49,7 @@ fn same_folders(folder: &Path, one: &str, other: &str) -> usize {
 fn every_command_reads_standard_input() {
     let folder = tempfile::tempdir().unwrap();
     let folder = folder.path();
-    std::fs::write(folder.join("plain.tri"), TRIANGLE).unwrap();
+    std::fs::write(folder.join("given.tri"), TRIANGLE).unwrap();
     let commands: [&[&str]; 12] = [
         &["raster", "IN"],
         &["render", "IN"],
@@ -85,7 +85,7 @@ fn every_command_reads_standard_input() {
             assert_eq!(with_input(folder, &words, TRIANGLE), (Some(0), String::new()), "{words:?}");
             checked += 1;
         }
-        let words = arguments("plain.tri", "plain");
+        let words = arguments("given.tri", "plain");
         let words: Vec<&str> = words.iter().map(String::as_str).collect();
         assert_eq!(run(folder, &words), (Some(0), String::new()), "{words:?}");
         same += same_folders(folder, "plain", "dash") + same_folders(folder, "plain", "device");
