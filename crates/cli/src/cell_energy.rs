@@ -55,8 +55,8 @@ impl CellEnergy {
     /// or at the fastest clock. Each token that enters the machine calls `taken`.
     ///
     /// # Errors
-    /// A tool is missing, fails or takes too long; a machine that cannot be built; a clock that is too fast; gates that differ from the netlist; too few
-    /// cycles to compare the two.
+    /// A tool is missing, fails or takes too long. The machine cannot be built. The clock is too fast for the gates. The gates
+    /// differ from the netlist, or there are too few cycles to compare the two.
     pub fn measure(&self, of: &Drawing, mhz: Option<f64>, taken: &dyn Fn()) -> Result<Report> {
         let design = Design::new(of.machine, Part::MACHINE)
             .map_err(|e| anyhow!("the netlist cannot be built: {e}"))?;

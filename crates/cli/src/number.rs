@@ -71,7 +71,7 @@ mod tests {
     use clap::{Arg, Command, CommandFactory as _};
     use std::str::FromStr;
 
-    /// Words of Rust's own errors, which say nothing of what is permitted.
+    /// Words of Rust's own errors. They do not say which numbers are permitted.
     const RAW: [&str; 5] =
         ["invalid digit", "invalid float", "too large to fit", "too small to fit", "empty string"];
 

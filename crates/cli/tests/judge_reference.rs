@@ -299,7 +299,7 @@ fn npy(path: &Path, descr: &str, each: usize, value: &[u8]) {
     std::fs::write(path, file).unwrap();
 }
 
-/// Values that no picture has are refused with their pixel, and with what is permitted.
+/// `judge` refuses values outside the permitted range. The error names the pixel and the range.
 #[test]
 fn values_out_of_range_are_refused() {
     let folder = folder(TWO);

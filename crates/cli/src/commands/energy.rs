@@ -5,7 +5,7 @@ use crate::cell_energy::{CellEnergy, Drawing};
 use crate::document::document;
 use crate::input::{Source, to_port};
 use crate::machine_args::MachineArgs;
-use crate::number::whole;
+use crate::number::{real, whole};
 use crate::progress;
 use crate::verdict::Verdict;
 use anyhow::Result;
@@ -35,7 +35,7 @@ pub struct Args {
     #[arg(long, value_name = "N", default_value_t = 1_000_000, value_parser = whole::<u64>(1..))]
     cycles: u64,
     /// Clock at which the power is told; the fastest that the gates permit if left out
-    #[arg(long, value_name = "MHZ", value_parser = megahertz)]
+    #[arg(long, value_name = "MHZ", value_parser = real(0.001..=100_000.0, "MHz"))]
     mhz: Option<f64>,
     /// Library of cells in the Liberty format, instead of OSU's for 0.18 um (docs/energy.md)
     #[arg(long, value_name = "FILE.lib")]
@@ -46,11 +46,6 @@ pub struct Args {
     /// Folder of the cache; $XDG_CACHE_HOME/edgewalk/synth or ~/.cache/edgewalk/synth if left out
     #[arg(long, value_name = "DIR")]
     cache: Option<PathBuf>,
-}
-
-fn megahertz(text: &str) -> Result<f64, String> {
-    let number = text.parse().ok().filter(|mhz| (0.001..=100_000.0).contains(mhz));
-    number.ok_or_else(|| "permitted: 0.001 to 100000".to_owned())
 }
 
 /// Runs the command.

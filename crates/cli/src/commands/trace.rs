@@ -27,8 +27,8 @@ use views::Views;
 /// Run the machine's netlist and write the waveform or the transitions of every signal that can change.
 ///
 /// The ending of the file chooses the format: VCD and FST are waveforms, SAIF counts transitions. `activity_name` holds the
-/// cause of each cycle in words: as text in a VCD, as ASCII in an FST. With SAIF the sums by unit are printed. Each signal with a
-/// name is told once, with the unit that drives it. The machine's inputs are told as `top`.
+/// cause of each cycle in words: as text in a VCD, as ASCII in an FST. With SAIF the sums by unit are printed. A named signal
+/// counts once, for the unit that drives it. The machine's inputs count for `top`.
 #[derive(clap::Args)]
 #[command(after_help = "Examples:
   edgewalk trace sphere --out out/sphere.fst --triangles 20

@@ -20,7 +20,7 @@ impl Behind {
             Err(why @ (NoBound::Shaded | NoBound::Bilinear | NoBound::Layered { .. })) => {
                 Err(why.to_string())
             }
-            // Word lengths that prove nothing are what is asked for; a triangle has no defect.
+            // `size` looks for other word lengths then. A triangle has no defect.
             _ => Ok(Behind::at(machine, place, Some(1.0), 0.0)),
         }
     }

@@ -23,7 +23,7 @@ pub struct Tolerance {
     pub z_bits: u32,
     /// Bits of a colour.
     pub color_bits: u32,
-    /// Of a blended frame whose tolerance nobody gave: the largest of a pixel's colour, LSB.
+    /// The largest tolerance of a pixel's colour in a blended frame, LSB; none without layers, or with a tolerance of the user.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub layers: Option<f64>,
     /// What DITHER may add to the bound of a blended pixel, LSB.

@@ -145,7 +145,7 @@ impl<'m> Decoded<'m> {
         }
     }
 
-    /// The number of a result, for what is compared with `give`.
+    /// The number of a result, as the field `give` of a word has it.
     pub fn result(&self, give: Give) -> Signal<'m> {
         self.code("give", &format!("{give:?}"), number_of(give))
     }
