@@ -123,6 +123,18 @@ impl Cell {
     }
 }
 
+impl Cell {
+    /// The place of the pin at which the state of a flip-flop, or else its inverse, is seen.
+    pub fn state(&self) -> Option<usize> {
+        let shows = |function: u64| {
+            let outputs = self.pins.iter().enumerate().skip(self.inputs);
+            outputs.filter(|(_, pin)| pin.function == function).map(|(place, _)| place).next()
+        };
+        self.register.as_ref()?;
+        shows(0b10).or_else(|| shows(0b01))
+    }
+}
+
 impl Register {
     fn read(of: &Group, inputs: &[&str]) -> Option<Register> {
         let bare = |key: &str| {

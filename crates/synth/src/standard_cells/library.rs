@@ -28,8 +28,6 @@ pub struct Library {
     name: String,
     /// Area of each cell, um2.
     areas: BTreeMap<String, f64>,
-    /// Cells with a register, and the pin at which the register's value is seen.
-    registers: BTreeMap<String, String>,
     /// What is computed with each cell; of those that no design can have, why.
     cells: BTreeMap<String, Result<Cell, &'static str>>,
     /// What the numbers of the cells count.
@@ -140,13 +138,8 @@ impl Library {
             };
             cells.insert(cell.name().to_owned(), read);
         }
-        let (mut registers, mut gates, mut inverters) = (BTreeMap::new(), Vec::new(), Vec::new());
-        let mut rising = false;
+        let (mut gates, mut inverters) = (Vec::new(), Vec::new());
         for cell in library.of("cell") {
-            if let Some((register, output)) = register(cell) {
-                rising |= rises(register);
-                registers.insert(cell.name().to_owned(), output);
-            }
             let area = areas[cell.name()]; // there: `areas` has one of each cell
             match shape(cell) {
                 Some((2, 0b0111, _)) => gates.push((cell.name().to_owned(), area)),
@@ -154,7 +147,7 @@ impl Library {
                 _ => {}
             }
         }
-        if !rising {
+        if !cells.values().flatten().any(|cell: &Cell| cell.state().is_some()) {
             return Err(whole("has no flip-flop of the rising clock edge without set and reset"));
         }
         gates.sort_by(|a, b| a.1.total_cmp(&b.1));
@@ -167,7 +160,7 @@ impl Library {
             inverters.first().ok_or_else(|| whole("has no inverter: it drives the inputs"))?.0.to_owned();
         let hash = Sha256::digest(&text).iter().map(|byte| format!("{byte:02x}")).collect();
         let name = library.name().to_owned();
-        Ok(Library { hash, name, areas, registers, cells, units, gate, inverter, text })
+        Ok(Library { hash, name, areas, cells, units, gate, inverter, text })
     }
 
     /// Name of the library, as its file tells it.
@@ -211,9 +204,10 @@ impl Library {
         cell.into_iter().flat_map(|cell| &cell.pins[cell.inputs..]).map(|pin| pin.name.as_str())
     }
 
-    /// The pin at which the cell's register is seen, if it has a register.
+    /// The pin at which the state of a cell's flip-flop is seen, if it has one.
     pub(super) fn register(&self, cell: &str) -> Option<&str> {
-        self.registers.get(cell).map(String::as_str)
+        let cell = self.cells.get(cell)?.as_ref().ok()?;
+        cell.state().map(|pin| cell.pins[pin].name.as_str())
     }
 }
 
@@ -303,29 +297,6 @@ fn areas(library: &Group) -> Result<BTreeMap<String, f64>, Wrong> {
     }
 }
 
-/// The register of a cell, and the pin at which its value, or else its inverse, is seen.
-fn register(cell: &Group) -> Option<(&Group, String)> {
-    let register = cell.of("ff").next()?;
-    let output = register.names.iter().find_map(|state| {
-        cell.of("pin").find(|pin| pin.value("function").is_some_and(|(of, _)| bare(of) == state))
-    })?;
-    Some((register, output.name().to_owned()))
-}
-
-/// Whether the register takes a value at the rising edge of a pin, and has neither set nor reset.
-fn rises(register: &Group) -> bool {
-    let is_name =
-        |text: &str| !text.is_empty() && text.chars().all(|c| c.is_alphanumeric() || "_[]".contains(c));
-    let plain = |key: &str| register.value(key).is_some_and(|(value, _)| is_name(bare(value)));
-    let free = |key: &str| register.value(key).is_none();
-    plain("clocked_on") && plain("next_state") && free("clear") && free("preset")
-}
-
-/// `(A)` without space and parentheses.
-fn bare(function: &str) -> &str {
-    function.trim_matches(|c: char| c.is_whitespace() || "()".contains(c))
-}
-
 /// A cell of one output and at most two inputs: how many, its truth table, and the greatest capacitance it drives.
 fn shape(cell: &Group) -> Option<(usize, u64, f64)> {
     let pins = |direction: &str| {
@@ -360,10 +331,14 @@ mod tests {
         };
         let flip_flop = |name: &str, pins: &str| {
             format!(
-                "cell ({name}) {{ area : 9; ff (I, N) {{ next_state : \"D\"; clocked_on : \"C\"; }} {pins} }}"
+                "cell ({name}) {{ area : 9; ff (I, N) {{ next_state : \"D\"; clocked_on : \"C\"; }}
+                pin (C) {{ direction : input; }} pin (D) {{ direction : input; }} {pins} }}"
             )
         };
-        let (q, qn) = ("pin (OUT) { function : \"I\"; }", "pin (INV) { function : \"N\"; }");
+        let (q, qn) = (
+            "pin (OUT) { direction : output; function : \"I\"; }",
+            "pin (INV) { direction : output; function : \"N\"; }",
+        );
         let cells = [
             inverter("weak", "2", "0.5"),
             inverter("strong", "2", "0.9"),
