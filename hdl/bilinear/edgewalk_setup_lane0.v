@@ -37,6 +37,18 @@ module edgewalk_setup_lane0 (
   output wire [45:0] value           // modular, two clocks after a step
 );
 
+  // The steps of a lane. Bit 4: a stored pair is added. Bit 3: M is taken off. Bits 1 and 0: it subtracts.
+  localparam [4:0] STEP_REST = 5'd0;
+  localparam [4:0] STEP_DOUBLE1 = 5'd1;
+  localparam [4:0] STEP_TAKE = 5'd3;
+  localparam [4:0] STEP_BEGIN = 5'd7;
+  localparam [4:0] STEP_DOUBLE2 = 5'd8;
+  localparam [4:0] STEP_DIGITS = 5'd9;
+  localparam [4:0] STEP_ADD = 5'd16;
+  localparam [4:0] STEP_FIRST = 5'd17;
+  localparam [4:0] STEP_NEXT = 5'd18;
+  localparam [4:0] STEP_SIGN = 5'd19;
+
   // The modulus: -M, or its complement -M - 1, with the 1 that is then missing.
   reg [44:0] modulus;  // -M or -M - 1, signed
   reg short;           // 1 is missing in modulus
@@ -87,7 +99,7 @@ module edgewalk_setup_lane0 (
     n0 <= subtracts ? ~part[44:0] : a;
     n1 <= part;
     n2 <= a_less_2m[45:1];
-    carry0 <= (subtracts && !(step == 5'd7)) || (take_modulus_off && short);
+    carry0 <= (subtracts && !(step == STEP_BEGIN)) || (take_modulus_off && short);
     carry <= take_modulus_off && short;
   end
 
@@ -117,12 +129,12 @@ module edgewalk_setup_lane0 (
 
   always @(posedge clk) begin
     now <= step;
-    fourfold <= (step == 5'd8) || (step == 5'd9);
-    twofold <= (step == 5'd1) || (step == 5'd18);
-    keeps <= (step == 5'd0) || (step == 5'd16);
-    takes <= (step == 5'd3) || (step == 5'd7);
-    added <= (step == 5'd3) ? number : (step == 5'd9) ? {27'd0, digits} : 29'd0;
-    below <= ((step == 5'd3) && number[28]) || ((step == 5'd7) && digits[1]);
+    fourfold <= (step == STEP_DOUBLE2) || (step == STEP_DIGITS);
+    twofold <= (step == STEP_DOUBLE1) || (step == STEP_NEXT);
+    keeps <= (step == STEP_REST) || (step == STEP_ADD);
+    takes <= (step == STEP_TAKE) || (step == STEP_BEGIN);
+    added <= (step == STEP_TAKE) ? number : (step == STEP_DIGITS) ? {27'd0, digits} : 29'd0;
+    below <= ((step == STEP_TAKE) && number[28]) || ((step == STEP_BEGIN) && digits[1]);
     rest <= rest_next;
   end
 
@@ -171,7 +183,7 @@ module edgewalk_setup_lane0 (
     read_whole_at <= read_at;
     write_then <= write;
     write_then_at <= write_at;
-    subtracted <= step == 5'd19;
+    subtracted <= step == STEP_SIGN;
     slot_now <= of_slot;
     b <= slot_now ? wholes_q ^ extended : extended;
     taken <= {twice_or_more, once_or_thrice};
@@ -197,14 +209,14 @@ module edgewalk_setup_lane0 (
     end
   end
 
-  assign unfit = (now == 5'd3) && (below ? !fits0 : fits1);
+  assign unfit = (now == STEP_TAKE) && (below ? !fits0 : fits1);
   assign rest_out = rest;
   assign value = value_sum[46:1];
 
   // Not needed, on purpose.
   wire unused = &{
-    1'b0, a_less_m[0], less_2m[45], a_less_2m[0], x_and_n0[0], x_and_n1[0], s1[44], x_and_n2[0],
-    x_and_b[0], past_half[0], value_sum[0], part_2[43:0]
+    1'b0, STEP_FIRST, a_less_m[0], less_2m[45], a_less_2m[0], x_and_n0[0], x_and_n1[0], s1[44],
+    x_and_n2[0], x_and_b[0], past_half[0], value_sum[0], part_2[43:0]
   };
 
 endmodule

@@ -545,19 +545,31 @@ module edgewalk_setup (
     end
   end
 
+  // The steps of a lane. Bit 4: a stored pair is added. Bit 3: M is taken off. Bits 1 and 0: it subtracts.
+  localparam [4:0] STEP_REST = 5'd0;
+  localparam [4:0] STEP_DOUBLE1 = 5'd1;
+  localparam [4:0] STEP_TAKE = 5'd3;
+  localparam [4:0] STEP_BEGIN = 5'd7;
+  localparam [4:0] STEP_DOUBLE2 = 5'd8;
+  localparam [4:0] STEP_DIGITS = 5'd9;
+  localparam [4:0] STEP_ADD = 5'd16;
+  localparam [4:0] STEP_FIRST = 5'd17;
+  localparam [4:0] STEP_NEXT = 5'd18;
+  localparam [4:0] STEP_SIGN = 5'd19;
+
   // Commands of all lanes.
   wire either_3 = (at == TAKE_DX)
                || (at == TAKE_DY)
                || (at == TAKE12)
                || (at == TAKE1)
                || (at == TAKE2);
-  wire [4:0] step = ((at == SUM) || (at == SUM_X)) ? (first ? 5'd17 : 5'd18)
-                  : ((at == ADD_DX) || (at == ADD_X)) ? 5'd16
-                  : ((at == SIGN_LINE) || (at == SIGN_START)) ? 5'd19
-                  : ((at == SUM_LINE) || (at == SUM_START)) ? 5'd18
-                  : ((at == DOUBLE_DX) || (at == DOUBLE_X) || (at == DOUBLE_LINE)) ? 5'd8
-                  : either_3 ? 5'd3
-                  : 5'd0;
+  wire [4:0] step = ((at == SUM) || (at == SUM_X)) ? (first ? STEP_FIRST : STEP_NEXT)
+                  : ((at == ADD_DX) || (at == ADD_X)) ? STEP_ADD
+                  : ((at == SIGN_LINE) || (at == SIGN_START)) ? STEP_SIGN
+                  : ((at == SUM_LINE) || (at == SUM_START)) ? STEP_NEXT
+                  : ((at == DOUBLE_DX) || (at == DOUBLE_X) || (at == DOUBLE_LINE)) ? STEP_DOUBLE2
+                  : either_3 ? STEP_TAKE
+                  : STEP_REST;
   wire is_sum = (at == SUM) || (at == SUM_X) || (at == SUM_LINE) || (at == SUM_START);
   wire is_sign = (at == SIGN_LINE) || (at == SIGN_START);
   wire of_gradients = (at == SIGN_START) || (at == SUM_START);
@@ -585,7 +597,7 @@ module edgewalk_setup (
   wire negated = (at_rest == DOUBLE_X) && area[44];
 
   // Lane 0: its steps.
-  wire [4:0] step0 = rests ? 5'd0 : step;
+  wire [4:0] step0 = rests ? STEP_REST : step;
   reg [4:0] step_next0;
   reg [4:0] step_of_pause0;
   wire [4:0] step_formed0 = advance ? step_next0 : step_of_pause0;
@@ -594,14 +606,14 @@ module edgewalk_setup (
     if (advance) step_next0 <= step0;
   end
 
-  wire [4:0] choice_11 = advance ? 5'd7 : 5'd9;
+  wire [4:0] choice_11 = advance ? STEP_BEGIN : STEP_DIGITS;
 
   always @(posedge clk) begin
-    step_of_pause0 <= (pause == 4'd2) ? 5'd8 : choice_11;
+    step_of_pause0 <= (pause == 4'd2) ? STEP_DOUBLE2 : choice_11;
   end
 
   // Lane 1: its steps.
-  wire [4:0] step1 = rests ? 5'd0 : step;
+  wire [4:0] step1 = rests ? STEP_REST : step;
   reg [4:0] step_next1;
   reg [4:0] step_of_pause1;
   wire [4:0] step_formed1 = advance ? step_next1 : step_of_pause1;
@@ -611,11 +623,11 @@ module edgewalk_setup (
   end
 
   always @(posedge clk) begin
-    step_of_pause1 <= (pause == 4'd2) ? 5'd8 : choice_11;
+    step_of_pause1 <= (pause == 4'd2) ? STEP_DOUBLE2 : choice_11;
   end
 
   // Lane 2: its steps.
-  wire [4:0] step2 = rests ? 5'd0 : step;
+  wire [4:0] step2 = rests ? STEP_REST : step;
   reg [4:0] step_next2;
   reg [4:0] step_of_pause2;
   wire [4:0] step_formed2 = advance ? step_next2 : step_of_pause2;
@@ -625,11 +637,11 @@ module edgewalk_setup (
   end
 
   always @(posedge clk) begin
-    step_of_pause2 <= (pause == 4'd2) ? 5'd8 : choice_11;
+    step_of_pause2 <= (pause == 4'd2) ? STEP_DOUBLE2 : choice_11;
   end
 
   // Lane 3: its steps.
-  wire [4:0] step3 = rests ? 5'd0 : step;
+  wire [4:0] step3 = rests ? STEP_REST : step;
   reg [4:0] step_next3;
 
   always @(posedge clk) begin
@@ -1018,13 +1030,13 @@ module edgewalk_setup (
 
   // Not needed, on purpose.
   wire unused = &{
-    1'b0, WAIT_LINE, less_m[0], lane3_unfit, part_5[0], part_10[0], part_13[0], part_17[0], part_20[0],
-    shifted[21:1], shifted_2[21:1], part_21[43:0], difference[14:10], difference_2[14:10],
-    joined[22:21], joined_2[22:21], either_2[23], part_27[0], part_30[0], part_35[0], part_38[0],
-    part_42[0], part_45[0], shifted_3[23:1], shifted_4[23:1], shifted_7[7:1], shifted_8[20:1],
-    shifted_5[28:2], joined_4[46], shifted_6[22:2], joined_5[40:30], shifted_9[22:2], joined_6[40:30],
-    joined_7[40:30], part_47[35:22], difference_6[7:0], part_49[35:22], difference_7[7:0],
-    part_51[35:22], difference_8[7:0]
+    1'b0, WAIT_LINE, less_m[0], STEP_DOUBLE1, lane3_unfit, part_5[0], part_10[0], part_13[0],
+    part_17[0], part_20[0], shifted[21:1], shifted_2[21:1], part_21[43:0], difference[14:10],
+    difference_2[14:10], joined[22:21], joined_2[22:21], either_2[23], part_27[0], part_30[0],
+    part_35[0], part_38[0], part_42[0], part_45[0], shifted_3[23:1], shifted_4[23:1], shifted_7[7:1],
+    shifted_8[20:1], shifted_5[28:2], joined_4[46], shifted_6[22:2], joined_5[40:30], shifted_9[22:2],
+    joined_6[40:30], joined_7[40:30], part_47[35:22], difference_6[7:0], part_49[35:22],
+    difference_7[7:0], part_51[35:22], difference_8[7:0]
   };
 
 endmodule

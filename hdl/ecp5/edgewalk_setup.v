@@ -543,19 +543,31 @@ module edgewalk_setup (
     end
   end
 
+  // The steps of a lane. Bit 4: a stored pair is added. Bit 3: M is taken off. Bits 1 and 0: it subtracts.
+  localparam [4:0] STEP_REST = 5'd0;
+  localparam [4:0] STEP_DOUBLE1 = 5'd1;
+  localparam [4:0] STEP_TAKE = 5'd3;
+  localparam [4:0] STEP_BEGIN = 5'd7;
+  localparam [4:0] STEP_DOUBLE2 = 5'd8;
+  localparam [4:0] STEP_DIGITS = 5'd9;
+  localparam [4:0] STEP_ADD = 5'd16;
+  localparam [4:0] STEP_FIRST = 5'd17;
+  localparam [4:0] STEP_NEXT = 5'd18;
+  localparam [4:0] STEP_SIGN = 5'd19;
+
   // Commands of all lanes.
   wire either_3 = (at == TAKE_DX)
                || (at == TAKE_DY)
                || (at == TAKE12)
                || (at == TAKE1)
                || (at == TAKE2);
-  wire [4:0] step = ((at == SUM) || (at == SUM_X)) ? (first ? 5'd17 : 5'd18)
-                  : ((at == ADD_DX) || (at == ADD_X)) ? 5'd16
-                  : ((at == SIGN_LINE) || (at == SIGN_START)) ? 5'd19
-                  : ((at == SUM_LINE) || (at == SUM_START)) ? 5'd18
-                  : ((at == DOUBLE_DX) || (at == DOUBLE_X) || (at == DOUBLE_LINE)) ? 5'd8
-                  : either_3 ? 5'd3
-                  : 5'd0;
+  wire [4:0] step = ((at == SUM) || (at == SUM_X)) ? (first ? STEP_FIRST : STEP_NEXT)
+                  : ((at == ADD_DX) || (at == ADD_X)) ? STEP_ADD
+                  : ((at == SIGN_LINE) || (at == SIGN_START)) ? STEP_SIGN
+                  : ((at == SUM_LINE) || (at == SUM_START)) ? STEP_NEXT
+                  : ((at == DOUBLE_DX) || (at == DOUBLE_X) || (at == DOUBLE_LINE)) ? STEP_DOUBLE2
+                  : either_3 ? STEP_TAKE
+                  : STEP_REST;
   wire is_sum = (at == SUM) || (at == SUM_X) || (at == SUM_LINE) || (at == SUM_START);
   wire is_sign = (at == SIGN_LINE) || (at == SIGN_START);
   wire of_gradients = (at == SIGN_START) || (at == SUM_START);
@@ -583,7 +595,7 @@ module edgewalk_setup (
   wire negated = (at_rest == DOUBLE_X) && area[30];
 
   // Lane 0: its steps.
-  wire [4:0] step0 = rests ? 5'd0 : step;
+  wire [4:0] step0 = rests ? STEP_REST : step;
   reg [4:0] step_next0;
   reg [4:0] step_of_pause0;
   wire [4:0] step_formed0 = advance ? step_next0 : step_of_pause0;
@@ -593,7 +605,7 @@ module edgewalk_setup (
   end
 
   always @(posedge clk) begin
-    step_of_pause0 <= (pause == 4'd2) ? 5'd8 : advance ? 5'd7 : 5'd9;
+    step_of_pause0 <= (pause == 4'd2) ? STEP_DOUBLE2 : advance ? STEP_BEGIN : STEP_DIGITS;
   end
 
   // Inputs of the lanes in the next clock.
@@ -908,11 +920,12 @@ module edgewalk_setup (
 
   // Not needed, on purpose.
   wire unused = &{
-    1'b0, WAIT_LINE, less_m[0], part_3[0], part_6[0], part_10[0], part_13[0], shifted[14:1],
-    shifted_2[14:1], part_14[29:0], difference[11:10], difference_2[11:10], joined[15:14],
-    joined_2[15:14], part_21[0], part_24[0], part_28[0], part_31[0], shifted_3[16:1], shifted_4[16:1],
-    shifted_5[16:2], joined_7[32], joined_6[32], joined_5[32], joined_4[32], part_35[25:15],
-    difference_4[3:0], part_36[25:15], difference_5[3:0], part_37[25:15], difference_6[3:0]
+    1'b0, WAIT_LINE, less_m[0], STEP_DOUBLE1, part_3[0], part_6[0], part_10[0], part_13[0],
+    shifted[14:1], shifted_2[14:1], part_14[29:0], difference[11:10], difference_2[11:10],
+    joined[15:14], joined_2[15:14], part_21[0], part_24[0], part_28[0], part_31[0], shifted_3[16:1],
+    shifted_4[16:1], shifted_5[16:2], joined_7[32], joined_6[32], joined_5[32], joined_4[32],
+    part_35[25:15], difference_4[3:0], part_36[25:15], difference_5[3:0], part_37[25:15],
+    difference_6[3:0]
   };
 
 endmodule

@@ -533,19 +533,31 @@ module edgewalk_setup (
     end
   end
 
+  // The steps of a lane. Bit 4: a stored pair is added. Bit 3: M is taken off. Bits 1 and 0: it subtracts.
+  localparam [4:0] STEP_REST = 5'd0;
+  localparam [4:0] STEP_DOUBLE1 = 5'd1;
+  localparam [4:0] STEP_TAKE = 5'd3;
+  localparam [4:0] STEP_BEGIN = 5'd7;
+  localparam [4:0] STEP_DOUBLE2 = 5'd8;
+  localparam [4:0] STEP_DIGITS = 5'd9;
+  localparam [4:0] STEP_ADD = 5'd16;
+  localparam [4:0] STEP_FIRST = 5'd17;
+  localparam [4:0] STEP_NEXT = 5'd18;
+  localparam [4:0] STEP_SIGN = 5'd19;
+
   // Commands of all lanes.
   wire either_3 = (at == TAKE_DX)
                || (at == TAKE_DY)
                || (at == TAKE12)
                || (at == TAKE1)
                || (at == TAKE2);
-  wire [4:0] step = ((at == SUM) || (at == SUM_X)) ? (first ? 5'd17 : 5'd18)
-                  : ((at == ADD_DX) || (at == ADD_X)) ? 5'd16
-                  : ((at == SIGN_LINE) || (at == SIGN_START)) ? 5'd19
-                  : ((at == SUM_LINE) || (at == SUM_START)) ? 5'd18
-                  : ((at == DOUBLE_DX) || (at == DOUBLE_X) || (at == DOUBLE_LINE)) ? 5'd8
-                  : either_3 ? 5'd3
-                  : 5'd0;
+  wire [4:0] step = ((at == SUM) || (at == SUM_X)) ? (first ? STEP_FIRST : STEP_NEXT)
+                  : ((at == ADD_DX) || (at == ADD_X)) ? STEP_ADD
+                  : ((at == SIGN_LINE) || (at == SIGN_START)) ? STEP_SIGN
+                  : ((at == SUM_LINE) || (at == SUM_START)) ? STEP_NEXT
+                  : ((at == DOUBLE_DX) || (at == DOUBLE_X) || (at == DOUBLE_LINE)) ? STEP_DOUBLE2
+                  : either_3 ? STEP_TAKE
+                  : STEP_REST;
   wire is_sum = (at == SUM) || (at == SUM_X) || (at == SUM_LINE) || (at == SUM_START);
   wire is_sign = (at == SIGN_LINE) || (at == SIGN_START);
   wire of_gradients = (at == SIGN_START) || (at == SUM_START);
@@ -573,20 +585,20 @@ module edgewalk_setup (
   wire negated = (at_rest == DOUBLE_X) && area[24];
 
   // Lane 0: its steps.
-  wire [4:0] choice_7 = (round == 2'd3) ? ((left == 5'd0) ? 5'd1 : 5'd8)
-                      : (round == 2'd2) ? ((left == 5'd0) ? 5'd1 : 5'd8)
-                      : (round == 2'd1) ? ((left == 5'd0) ? 5'd1 : 5'd8)
-                      : (left == 5'd0) ? 5'd1
-                      : 5'd8;
-  wire [4:0] choice_8 = (round == 2'd3) ? ((left == 5'd0) ? 5'd1 : 5'd8)
-                      : (round == 2'd2) ? ((left == 5'd0) ? 5'd1 : 5'd8)
-                      : (round == 2'd1) ? ((left == 5'd0) ? 5'd1 : 5'd8)
-                      : (left == 5'd0) ? 5'd1
-                      : 5'd8;
-  wire [4:0] step0 = rests ? 5'd0
+  wire [4:0] choice_7 = (round == 2'd3) ? ((left == 5'd0) ? STEP_DOUBLE1 : STEP_DOUBLE2)
+                      : (round == 2'd2) ? ((left == 5'd0) ? STEP_DOUBLE1 : STEP_DOUBLE2)
+                      : (round == 2'd1) ? ((left == 5'd0) ? STEP_DOUBLE1 : STEP_DOUBLE2)
+                      : (left == 5'd0) ? STEP_DOUBLE1
+                      : STEP_DOUBLE2;
+  wire [4:0] choice_8 = (round == 2'd3) ? ((left == 5'd0) ? STEP_DOUBLE1 : STEP_DOUBLE2)
+                      : (round == 2'd2) ? ((left == 5'd0) ? STEP_DOUBLE1 : STEP_DOUBLE2)
+                      : (round == 2'd1) ? ((left == 5'd0) ? STEP_DOUBLE1 : STEP_DOUBLE2)
+                      : (left == 5'd0) ? STEP_DOUBLE1
+                      : STEP_DOUBLE2;
+  wire [4:0] step0 = rests ? STEP_REST
                    : (at == DOUBLE_LINE) ? choice_7
                    : (at == DOUBLE_X) ? choice_8
-                   : (at == DOUBLE_DX) ? ((left == 5'd0) ? 5'd1 : 5'd8)
+                   : (at == DOUBLE_DX) ? ((left == 5'd0) ? STEP_DOUBLE1 : STEP_DOUBLE2)
                    : step;
   reg [4:0] step_next0;
   reg [4:0] step_of_pause0;
@@ -597,7 +609,7 @@ module edgewalk_setup (
   end
 
   always @(posedge clk) begin
-    step_of_pause0 <= (pause == 4'd2) ? 5'd8 : advance ? 5'd7 : 5'd9;
+    step_of_pause0 <= (pause == 4'd2) ? STEP_DOUBLE2 : advance ? STEP_BEGIN : STEP_DIGITS;
   end
 
   // Inputs of the lanes in the next clock.

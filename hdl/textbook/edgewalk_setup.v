@@ -556,6 +556,18 @@ module edgewalk_setup (
     end
   end
 
+  // The steps of a lane. Bit 4: a stored pair is added. Bit 3: M is taken off. Bits 1 and 0: it subtracts.
+  localparam [4:0] STEP_REST = 5'd0;
+  localparam [4:0] STEP_DOUBLE1 = 5'd1;
+  localparam [4:0] STEP_TAKE = 5'd3;
+  localparam [4:0] STEP_BEGIN = 5'd7;
+  localparam [4:0] STEP_DOUBLE2 = 5'd8;
+  localparam [4:0] STEP_DIGITS = 5'd9;
+  localparam [4:0] STEP_ADD = 5'd16;
+  localparam [4:0] STEP_FIRST = 5'd17;
+  localparam [4:0] STEP_NEXT = 5'd18;
+  localparam [4:0] STEP_SIGN = 5'd19;
+
   // Commands of all lanes.
   wire either_3 = (at == DOUBLE_DX)
                || (at == DOUBLE_COLUMNS)
@@ -571,7 +583,7 @@ module edgewalk_setup (
                || (at == TAKE2)
                || (at == TAKE_A)
                || (at == TAKE_B);
-  wire [4:0] step = ((at == SUM) || (at == SUM_X) || (at == SUM_A) || (at == SUM_B)) ? (first ? 5'd17 : 5'd18) : (at == ADD_DX) ? 5'd16 : either_3 ? 5'd8 : either_4 ? 5'd3 : 5'd0;
+  wire [4:0] step = ((at == SUM) || (at == SUM_X) || (at == SUM_A) || (at == SUM_B)) ? (first ? STEP_FIRST : STEP_NEXT) : (at == ADD_DX) ? STEP_ADD : either_3 ? STEP_DOUBLE2 : either_4 ? STEP_TAKE : STEP_REST;
   wire is_sum = (at == SUM) || (at == SUM_X) || (at == SUM_A) || (at == SUM_B);
   wire is_sign = 1'b0;
   wire of_gradients = 1'b0;
@@ -596,26 +608,26 @@ module edgewalk_setup (
   wire negated = 1'b0;
 
   // Lane 0: its steps.
-  wire [4:0] choice_10 = (round == 2'd3) ? ((left == 5'd0) ? 5'd1 : 5'd8)
-                       : (round == 2'd2) ? ((left == 5'd0) ? 5'd1 : 5'd8)
-                       : (round == 2'd1) ? ((left == 5'd0) ? 5'd1 : 5'd8)
-                       : (left == 5'd0) ? 5'd1
-                       : 5'd8;
-  wire [4:0] choice_11 = (round == 2'd3) ? ((left == 5'd0) ? 5'd1 : 5'd8)
-                       : (round == 2'd2) ? ((left == 5'd0) ? 5'd1 : 5'd8)
-                       : (round == 2'd1) ? ((left == 5'd0) ? 5'd1 : 5'd8)
-                       : (left == 5'd0) ? 5'd1
-                       : 5'd8;
-  wire [4:0] choice_12 = (round == 2'd3) ? ((left == 5'd0) ? 5'd1 : 5'd8)
-                       : (round == 2'd2) ? ((left == 5'd0) ? 5'd1 : 5'd8)
-                       : (round == 2'd1) ? ((left == 5'd0) ? 5'd1 : 5'd8)
-                       : (left == 5'd0) ? 5'd1
-                       : 5'd8;
-  wire [4:0] step0 = rests ? 5'd0
+  wire [4:0] choice_10 = (round == 2'd3) ? ((left == 5'd0) ? STEP_DOUBLE1 : STEP_DOUBLE2)
+                       : (round == 2'd2) ? ((left == 5'd0) ? STEP_DOUBLE1 : STEP_DOUBLE2)
+                       : (round == 2'd1) ? ((left == 5'd0) ? STEP_DOUBLE1 : STEP_DOUBLE2)
+                       : (left == 5'd0) ? STEP_DOUBLE1
+                       : STEP_DOUBLE2;
+  wire [4:0] choice_11 = (round == 2'd3) ? ((left == 5'd0) ? STEP_DOUBLE1 : STEP_DOUBLE2)
+                       : (round == 2'd2) ? ((left == 5'd0) ? STEP_DOUBLE1 : STEP_DOUBLE2)
+                       : (round == 2'd1) ? ((left == 5'd0) ? STEP_DOUBLE1 : STEP_DOUBLE2)
+                       : (left == 5'd0) ? STEP_DOUBLE1
+                       : STEP_DOUBLE2;
+  wire [4:0] choice_12 = (round == 2'd3) ? ((left == 5'd0) ? STEP_DOUBLE1 : STEP_DOUBLE2)
+                       : (round == 2'd2) ? ((left == 5'd0) ? STEP_DOUBLE1 : STEP_DOUBLE2)
+                       : (round == 2'd1) ? ((left == 5'd0) ? STEP_DOUBLE1 : STEP_DOUBLE2)
+                       : (left == 5'd0) ? STEP_DOUBLE1
+                       : STEP_DOUBLE2;
+  wire [4:0] step0 = rests ? STEP_REST
                    : (at == DOUBLE_START_B) ? choice_10
                    : (at == DOUBLE_START_A) ? choice_11
                    : (at == DOUBLE_X) ? choice_12
-                   : (at == DOUBLE_DX) ? ((left == 5'd0) ? 5'd1 : 5'd8)
+                   : (at == DOUBLE_DX) ? ((left == 5'd0) ? STEP_DOUBLE1 : STEP_DOUBLE2)
                    : step;
   reg [4:0] step_next0;
   reg [4:0] step_again0;
@@ -630,7 +642,7 @@ module edgewalk_setup (
   end
 
   always @(posedge clk) begin
-    step_of_pause0 <= (pause == 4'd2) ? step_again0 : advance ? 5'd7 : 5'd9;
+    step_of_pause0 <= (pause == 4'd2) ? step_again0 : advance ? STEP_BEGIN : STEP_DIGITS;
   end
 
   // Inputs of the lanes in the next clock.
@@ -971,7 +983,7 @@ module edgewalk_setup (
 
   // Not needed, on purpose.
   wire unused = &{
-    1'b0, ROUND_A, less_m[0], part_3[0], part_6[0], part_10[0], part_13[0], shifted[14:1],
+    1'b0, ROUND_A, less_m[0], STEP_SIGN, part_3[0], part_6[0], part_10[0], part_13[0], shifted[14:1],
     shifted_2[14:1], part_14[29:0], choice_6[14:10], choice_7[14:10], joined[15:14], joined_2[15:14],
     part_26[0], part_29[0], part_33[0], part_36[0], shifted_3[16:1], shifted_4[16:1], shifted_5[16:2]
   };

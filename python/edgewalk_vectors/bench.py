@@ -24,16 +24,14 @@ class Source:
     def drive(self, cycle, inputs):
         self.valid = self.sent < len(self.tokens) and (self.held or willing(self.willing, cycle))
         inputs[f"{self.name}_valid"] = int(self.valid)
-        token = self.tokens[self.sent] if self.valid else 0
-        for field in self.fields:
-            inputs[field["port"]] = token >> field["lsb"] & (1 << field["width"]) - 1
+        inputs.update(parts(self.fields, self.tokens[self.sent] if self.valid else 0))
 
     def sample(self, outputs, moved):
         fires = self.valid and outputs.get(f"{self.name}_ready") == 1
-        self.sent += fires
         self.held = self.valid and not fires
         if fires:
-            moved[self.name] = {}
+            moved[self.name] = parts(self.fields, self.tokens[self.sent])
+            self.sent += 1
 
 
 class Memory(Source):
@@ -50,9 +48,7 @@ class Memory(Source):
         due = bool(self.waiting) and self.waiting[0][0] <= cycle
         self.valid = due and (self.held or willing(self.willing, cycle))
         inputs[f"{self.name}_valid"] = int(self.valid)
-        word = self.waiting[0][1] if self.valid else 0
-        for field in self.fields:
-            inputs[field["port"]] = word >> field["lsb"] & (1 << field["width"]) - 1
+        inputs.update(parts(self.fields, self.waiting[0][1] if self.valid else 0))
 
     def sample(self, outputs, moved):
         fires = self.valid and outputs.get(f"{self.name}_ready") == 1
@@ -73,7 +69,7 @@ class Memory(Source):
             self.words[token[write["address"]]] = token[write["word"]]
 
 
-class Held:
+class Offered:
     """The rule of a channel out: a token that is offered stays as it is until it is taken."""
 
     def __init__(self):
@@ -96,7 +92,7 @@ class Sink:
         self.cycles = directory.steps(channel["moved"]) if by_cycle else None
         triangles = channel["triangles"]
         self.triangles = directory.steps(triangles) if triangles else None
-        self.directory, self.came, self.faults, self.held = directory, 0, [], Held()
+        self.directory, self.came, self.faults, self.offers = directory, 0, [], Offered()
         self.always = f"{self.name}_ready" in absent
         self.shy, self.waits, self.offered = shy and not self.always, False, False
 
@@ -109,7 +105,7 @@ class Sink:
         token = {field["port"]: outputs[field["port"]] for field in self.fields}
         # An unknown valid is taken for one.
         self.waits, self.offered = valid != 0 and not self.ready, self.offered or valid != 0
-        if self.held.broken(valid, token, self.ready):
+        if self.offers.broken(valid, token, self.ready):
             self.faults.append(f"{self.name}: cycle {cycle}: the token changed, or valid fell, before it was taken")
         if valid == 0 or not self.ready:
             return
@@ -127,9 +123,7 @@ class Sink:
         if self.cycles is not None and cycle != self.cycles[self.came]:
             self.faults.append(f"{self.where(cycle)}: expected in cycle {self.cycles[self.came]}")
         # The memories go on with what ought to have come, so that one fault is not followed by many.
-        moved[self.name] = {
-            field["port"]: want >> field["lsb"] & (1 << field["width"]) - 1 for field in self.channel["fields"]
-        }
+        moved[self.name] = parts(self.channel["fields"], want)
         self.came += 1
 
     def where(self, cycle):
@@ -138,6 +132,31 @@ class Sink:
             triangle = self.triangles[self.came]
             text += f", triangle {triangle}, case {self.directory.case_of(triangle)}"
         return f"{text}, cycle {cycle}"
+
+
+class Held:
+    """Values held beside a channel out: from the first token of a triangle on they stay until the next is taken."""
+
+    def __init__(self, rule, absent, by_cycle):
+        self.rule, self.ports = rule, [port for port in rule["ports"] if port not in absent]
+        # Compared by order, a design may have taken triangles whose first token has not moved.
+        self.kept, self.last, self.ahead, self.by_cycle, self.faults = False, None, 0, by_cycle, []
+
+    def sample(self, cycle, outputs, moved):
+        values = [outputs[port] for port in self.ports]
+        for port, before, now in zip(self.ports, self.last or [], values):
+            if self.kept and now != before:
+                shown = ["unknown bits" if value is None else f"{value:x}" for value in (before, now)]
+                self.faults.append(
+                    f"{port}: cycle {cycle}: changed before the next triangle was taken: {shown[0]}, then {shown[1]}"
+                )
+        self.last = values
+        taken = self.rule["taken"] in moved
+        if taken and self.rule["taken_with"]:
+            taken = moved[self.rule["taken"]][self.rule["taken_with"]] == 1
+        first = moved.get(self.rule["channel"], {}).get(self.rule["fresh"]) == 1
+        self.ahead += taken - first
+        self.kept = (self.kept or first) and not taken and (self.by_cycle or self.ahead <= 0)
 
 
 class Bench:
@@ -169,6 +188,7 @@ class Bench:
             else:
                 tokens = directory.numbers(channel["tokens"])
                 self.sources[name] = Source(channel, tokens, pattern[name])
+        self.held = [Held(rule, absent, by_cycle) for rule in manifest["held"]]
         status = manifest["status"]
         self.status = status["fields"] if by_cycle else []
         missing = [field["port"] for field in self.status if field["port"] in absent]
@@ -208,6 +228,8 @@ class Bench:
             source.sample(outputs, moved)
         for sink in self.sinks:
             sink.sample(self.cycle, outputs, moved)
+        for held in self.held:
+            held.sample(self.cycle, outputs, moved)
         for memory in self.memories:
             memory.serve(self.cycle, moved)
         changed = self._watch(outputs)
@@ -263,6 +285,8 @@ class Bench:
             missing = len(sink.wanted) - sink.came
             if missing:
                 told.append(f"{sink.where(self.cycle)}: never came, the first of {missing}")
+        for held in self.held:
+            told += held.faults[:SHOWN]
         if self.expected == 0 or not any(sink.wanted for sink in self.sinks):
             told.append("nothing was compared")
         if self.checked != self.expected:
@@ -270,6 +294,11 @@ class Bench:
         if told:
             raise Fault("\n".join(told))
         return self.checked
+
+
+def parts(fields, token):
+    """The fields of a packed token, by their ports."""
+    return {field["port"]: token >> field["lsb"] & (1 << field["width"]) - 1 for field in fields}
 
 
 def willing(pattern, cycle):

@@ -4,7 +4,7 @@ import hashlib
 import json
 from pathlib import Path
 
-FORMAT, VERSION = "edgewalk-vectors", 4
+FORMAT, VERSION = "edgewalk-vectors", 5
 
 
 class VectorsError(Exception):

@@ -1,6 +1,6 @@
 """A scoreboard under cocotb, 1.9 or 2: the tokens of a design beside those of the live model."""
 
-from .bench import SHOWN, Fault, Held
+from .bench import SHOWN, Fault, Offered
 from .directory import Directory, VectorsError
 from .pins import Pins, Wiring
 
@@ -9,7 +9,7 @@ class Out:
     """A channel out: its tokens beside the model's, in order."""
 
     def __init__(self, name, widths):
-        self.name, self.widths, self.held = name, widths, Held()
+        self.name, self.widths, self.held = name, widths, Offered()
         self.fields = list(widths)
         self.came, self.faults = 0, []
 
@@ -122,7 +122,7 @@ class Scoreboard:
         """Takes a cycle, from the values that stand before its clock edge. `start` does so by itself."""
         if self.pins.in_reset():
             for out in self.outs:
-                out.held = Held()
+                out.held = Offered()
             if self.taken or self.early:
                 self.live, self.taken = self._model(), 0
             self.offered, self.early = None, False

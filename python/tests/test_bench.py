@@ -2,7 +2,9 @@
 
 import re
 
+import edgewalk
 import pytest
+from conftest import SMALL
 
 from edgewalk_vectors import Bench, Directory, Fault, VectorsError
 
@@ -85,6 +87,44 @@ def test_unknown_bits_fail(vectors, player):
     # The token is right, and whether it is one is not known.
     spoil = at(when, lambda o: o.update(frag_valid=None))
     fails(vectors, player, spoil, "frag_valid: unknown bits", compare="order")
+
+
+def cycles_of_a_held_value(of_unit):
+    """Cycles between a triangle's first token and the entry of the next, in which no token moves."""
+    tokens, cycles = of_unit.tokens("line"), of_unit.cycles("line").tolist()
+    taken = of_unit.cycles("prim").tolist()
+    first = next(c for token, c in zip(tokens, cycles) if token["line_fresh"])
+    until = min(c for c in taken if c > first)
+    return [c for c in range(first + 1, until) if c not in cycles]
+
+
+@pytest.mark.parametrize("compare", ["cycle", "order"])
+def test_held_value_that_changes_fails(vectors, player, compare):
+    of_unit, folder = vectors("edge")
+    assert [rule["channel"] for rule in of_unit.manifest["held"]] == ["line"]
+    within = cycles_of_a_held_value(of_unit)
+    port = of_unit.manifest["held"][0]["ports"][0]
+    said = f"{port}: cycle {within[-1]}: changed before the next triangle was taken: \\w+, then \\w+"
+    fails(vectors, player, at(within[-1], flip(port)), said, unit="edge", compare=compare)
+    unknown = at(within[-1], lambda o: o.update({port: None}))
+    fails(vectors, player, unknown, "then unknown bits", unit="edge", compare=compare)
+
+
+def test_held_value_may_change_with_the_next_triangle(player, tmp_path):
+    of_unit = edgewalk.vectors(edgewalk.Machine(keys=SMALL), unit="edge", suite="random", count=5, seed=3)
+    of_unit.write(tmp_path / "v")
+    (rule,) = of_unit.manifest["held"]
+    assert len({tuple(token[port] for port in rule["ports"]) for token in of_unit.tokens("line")}) > 3
+    last = {}
+
+    def keep(cycle, outputs):
+        """The player shows the values of the next line while none is offered."""
+        if outputs["line_valid"]:
+            last.update({port: outputs[port] for port in rule["ports"]})
+        outputs.update(last)
+
+    checked, bench = played(tmp_path / "v", player(of_unit), keep)
+    assert checked == bench.expected
 
 
 def test_token_that_changes_while_it_waits_fails(vectors, player):

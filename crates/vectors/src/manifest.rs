@@ -13,7 +13,7 @@ pub const SCHEMA: &str = include_str!("../manifest.schema.json");
 /// Value of [`Manifest::format`].
 pub const FORMAT: &str = "edgewalk-vectors";
 /// The version of the format that is written, and the only one that is read.
-pub const VERSION: u32 = 4;
+pub const VERSION: u32 = 5;
 
 /// All of `manifest.json`.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -54,6 +54,8 @@ pub struct Manifest {
     pub radix: Radix,
     /// The channels.
     pub channels: Vec<Channel>,
+    /// Values that the design holds beside channels.
+    pub held: Vec<HeldValues>,
     /// Outputs compared in every cycle.
     pub status: Status,
     /// Cycles until nothing more happens.
@@ -310,6 +312,23 @@ pub struct Channel {
     pub triangles: Option<String>,
     /// Table for people; null where none is written.
     pub table: Option<String>,
+}
+
+/// Values that the design holds beside a channel out. They stay from the first token of a triangle until the next triangle
+/// is taken.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct HeldValues {
+    /// The channel.
+    pub channel: String,
+    /// The ports with the values.
+    pub ports: Vec<String>,
+    /// The port that is 1 with the first token of a triangle.
+    pub fresh: String,
+    /// The channel in whose token takes the next triangle.
+    pub taken: String,
+    /// The port that is 1 with such a token; null if each token of `taken` is one.
+    pub taken_with: Option<String>,
 }
 
 /// A field of a token, or a port.

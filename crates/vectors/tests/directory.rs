@@ -213,8 +213,8 @@ fn what_is_written_reads_back() {
 #[test]
 fn what_is_not_as_written_is_refused() {
     let files = small_directory();
-    let newer = replace(&files, manifest::FILE, "\"format_version\": 4", "\"format_version\": 5");
-    let older = replace(&files, manifest::FILE, "\"format_version\": 4", "\"format_version\": 3");
+    let newer = replace(&files, manifest::FILE, "\"format_version\": 5", "\"format_version\": 6");
+    let older = replace(&files, manifest::FILE, "\"format_version\": 5", "\"format_version\": 4");
     let other = replace(&files, manifest::FILE, "\"edgewalk-vectors\"", "\"something\"");
     let unknown = replace(&files, manifest::FILE, "\"unit\":", "\"colour\": 1, \"unit\":");
     let module = replace(&files, manifest::FILE, "\"module\": \"edgewalk\"", "\"module\": \"a; b\"");
@@ -230,8 +230,8 @@ fn what_is_not_as_written_is_refused() {
     let mut missing = files.clone();
     missing.retain(|(n, _)| n != "tb.v");
     let cases = [
-        (newer, "manifest.json: format_version 5: this program reads 4 only; write the directory again"),
-        (older, "manifest.json: format_version 3: this program reads 4 only; write the directory again"),
+        (newer, "manifest.json: format_version 6: this program reads 5 only; write the directory again"),
+        (older, "manifest.json: format_version 4: this program reads 5 only; write the directory again"),
         (other, "manifest.json: format is \"something\", not \"edgewalk-vectors\""),
         (unknown, "manifest.json: unknown field `colour`"),
         (module, "manifest.json: module \"a; b\" is no Verilog name"),

@@ -10,7 +10,7 @@ use edgewalk_machine::{Channel, EdgeKind, Plan};
 use edgewalk_netlist::{BuildErrors, Module, Netlist, Signal};
 
 use super::area::area_bits;
-use super::steps::longest_value;
+use super::steps::{StepCodes, longest_value};
 use inputs::Inputs;
 use step::{Modulus, Rest};
 
@@ -58,11 +58,12 @@ M is added, and -1 is its whole part. So it is with a pair that is subtracted: M
 pub(super) fn lane(name: &str, shape: Shape) -> Result<Arc<Netlist>, BuildErrors> {
     let m = Module::new(name, DOC);
     let inputs = Inputs::new(&m, shape);
+    let codes = StepCodes::new(&m);
     let modulus = Modulus::new(&m, &inputs);
     let rest = Rest::new(&m, &inputs);
-    let addends = step::addends(&m, &inputs, &modulus, rest.stored);
-    let step = step::step(&m, &inputs, &addends, &rest);
-    let whole = whole::whole(&m, &inputs, &step);
+    let addends = step::addends(&m, &inputs, &codes, &modulus, rest.stored);
+    let step = step::step(&m, &inputs, &codes, &addends, &rest);
+    let whole = whole::whole(&m, &inputs, &codes, &step);
     whole::give(&m, &inputs, &modulus, rest.now, whole);
     m.finish()
 }

@@ -8,7 +8,7 @@ use edgewalk_netlist::{BuildErrors, Instance, Module, Netlist, Reg, Signal};
 use super::control::Control;
 use super::factors::Factors;
 use super::lane::{Shape, lane};
-use super::steps::{Length, Op, Step, channel_of, edge_of, round_clocks, rounds};
+use super::steps::{Length, Op, Step, StepCodes, channel_of, edge_of, round_clocks, rounds};
 
 /// One lane in place.
 pub(super) struct Lane<'m> {
@@ -63,6 +63,7 @@ struct Common<'a, 'm> {
     plan: &'a Plan,
     control: &'a Control<'m>,
     factors: &'a Factors<'m>,
+    codes: StepCodes<'m>,
     /// The step that is named.
     step: Signal<'m>,
     /// In the next clock, in place of what is formed, while numbers do not fit: the sign, then digits.
@@ -92,8 +93,9 @@ impl<'a, 'm> Common<'a, 'm> {
         factors: &'a Factors<'m>,
         right: Signal<'m>,
     ) -> Common<'a, 'm> {
+        let codes = StepCodes::new(m);
         m.comment("Commands of all lanes.");
-        let code = |step: Step| m.lit(Step::BITS, step as u128);
+        let code = |step: Step| codes.of(step);
         let these = |which: &dyn Fn(Op) -> bool| Op::all(plan).filter(|op| which(*op)).collect::<Vec<_>>();
         let steps = |step: Step| these(&|op| op.doing().step == step);
         let mut step = code(Step::Rest);
@@ -150,6 +152,7 @@ impl<'a, 'm> Common<'a, 'm> {
             plan,
             control,
             factors,
+            codes,
             step,
             of_pause,
             read_at,
@@ -174,7 +177,7 @@ impl<'a, 'm> Common<'a, 'm> {
             let next = next.when(control.pause.advance, step).q();
             // The step after the numbers: in exact fill the doubling of DX.
             let kept = (self.plan.fill == Fill::Textbook).then(|| m.reg(&named("step_again"), Step::BITS));
-            let again = kept.map_or(m.lit(Step::BITS, self.first_doubling() as u128), Reg::q);
+            let again = kept.map_or(self.codes.of(self.first_doubling()), Reg::q);
             let of_pause = control.pause.left.eq(2).mux(again, self.of_pause);
             let of_pause = m.reg(&named("step_of_pause"), Step::BITS).set(of_pause).q();
             let formed = control.pause.advance.mux(next, of_pause).named(&named("step_formed"));
@@ -207,7 +210,7 @@ impl<'a, 'm> Common<'a, 'm> {
     /// single.
     fn step_of(&self, number: usize) -> Signal<'m> {
         let (m, control, rounds) = (self.m, self.control, rounds(self.plan)[1]);
-        let code = |step: Step| m.lit(Step::BITS, step as u128);
+        let code = |step: Step| self.codes.of(step);
         let mut step = self.step;
         for op in Op::all(self.plan) {
             let (doublings, scaled) = match op.doing().length {

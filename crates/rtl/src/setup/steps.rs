@@ -1,6 +1,7 @@
 //! What SETUP does in which order: the operations of a round, and the steps of the lanes they are made of.
 
 use edgewalk_machine::{Channel, EdgeKind, Fill, Plan};
+use edgewalk_netlist::{Module, Signal};
 
 /// A step of a lane (`docs/machine.md`, section 2). Of its number bit 4 says that the addend is a stored
 /// pair, bit 3 that M is taken off, bits 1 and 0 together that M less the addend is formed: the lane reads
@@ -32,6 +33,31 @@ pub(super) enum Step {
 impl Step {
     /// Bits of its number.
     pub const BITS: u32 = 5;
+}
+
+/// The numbers of the steps, as named constants of a module.
+pub(super) struct StepCodes<'m> {
+    codes: Vec<(Step, Signal<'m>)>,
+}
+
+impl<'m> StepCodes<'m> {
+    /// A constant a step.
+    pub fn new(m: &'m Module) -> StepCodes<'m> {
+        use Step::*;
+        m.comment("The steps of a lane. Bit 4: a stored pair is added. Bit 3: M is taken off. Bits 1 and 0: it subtracts.");
+        let steps = [Rest, Double1, Take, Begin, Double2, Digits, Add, First, Next, Sign];
+        let code = |step: Step| {
+            let name = format!("STEP_{step:?}").to_uppercase();
+            (step, m.constant(&name, Step::BITS, step as u128))
+        };
+        StepCodes { codes: steps.map(code).to_vec() }
+    }
+
+    /// The constant of a step.
+    pub fn of(&self, step: Step) -> Signal<'m> {
+        let found = self.codes.iter().find(|(other, _)| *other == step);
+        found.expect("every step has a constant").1
+    }
 }
 
 /// An operation of all lanes: one step, or as many as its numbers have digits.

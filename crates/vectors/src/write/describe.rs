@@ -9,8 +9,8 @@ use super::{
 use crate::capture::Trace;
 use crate::dut::Wiring;
 use crate::manifest::{
-    CaseInfo, Channel, Compare, FORMAT, Field, File, Handshake, MachineInfo, Manifest, Memory, MemoryWrite,
-    Radix, SideInput, Stalls, Status, SuiteInfo, VERSION,
+    CaseInfo, Channel, Compare, FORMAT, Field, File, Handshake, HeldValues, MachineInfo, Manifest, Memory,
+    MemoryWrite, Radix, SideInput, Stalls, Status, SuiteInfo, VERSION,
 };
 use crate::reach::{not_covered, reached};
 use crate::suites::Suite;
@@ -54,6 +54,7 @@ pub(super) fn manifest(
         limits: params::limits(trace, wiring),
         radix: Radix { mem: 16, patterns: 2 },
         channels: channels(trace, by_order, table),
+        held: held(interface),
         status: Status {
             fields: packed(&status_fields(interface)),
             optional: interface.status.iter().map(|status| status.port.name.clone()).collect(),
@@ -125,12 +126,24 @@ fn handshake(interface: &Interface, wiring: Option<&Wiring>) -> Handshake {
             "fields count only while valid is high".to_owned(),
             "with the cycles not compared (make CHECK_CYCLES=0) order and values of the tokens count, and no status"
                 .to_owned(),
-        ].into_iter().chain(held(interface)).collect(),
+        ].into_iter().chain(rules_of_held(interface)).collect(),
     }
 }
 
+/// Values held beside the channels out.
+fn held(interface: &Interface) -> Vec<HeldValues> {
+    let values = kept::all(interface).map(|kept| HeldValues {
+        channel: kept.link.name.to_owned(),
+        ports: kept.link.held().iter().map(|port| port.name.clone()).collect(),
+        fresh: kept.fresh.name.clone(),
+        taken: kept.taken.name.to_owned(),
+        taken_with: kept.ends.map(|port| port.name.clone()),
+    });
+    values.collect()
+}
+
 /// When values held beside a channel count.
-fn held(interface: &Interface) -> Vec<String> {
+fn rules_of_held(interface: &Interface) -> Vec<String> {
     let names = |link: &Link| {
         let names: Vec<&str> = link.held().iter().map(|port| port.name.as_str()).collect();
         names.join(", ")

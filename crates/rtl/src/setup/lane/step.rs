@@ -4,7 +4,7 @@ use edgewalk_netlist::{Module, Reg, Signal, Wire};
 
 use super::inputs::Inputs;
 use super::{apart, flag, repeat};
-use crate::setup::steps::Step;
+use crate::setup::steps::{Step, StepCodes};
 use crate::wires::plus;
 
 /// -M, or its complement -M - 1, with the 1 that is then missing.
@@ -60,6 +60,7 @@ pub(super) struct Addends<'m> {
 pub(super) fn addends<'m>(
     m: &'m Module,
     inputs: &Inputs<'m>,
+    codes: &StepCodes<'m>,
     modulus: &Modulus<'m>,
     stored: Signal<'m>,
 ) -> Addends<'m> {
@@ -81,7 +82,7 @@ pub(super) fn addends<'m>(
     n2.set(plus("a_less_2m", a, twice.trunc(bits), short));
     let carry0 = m.reg("carry0", 1).doc("1 to add to the sum of n0");
     // Of a number that does not fit the sign stands for -1: M - 1.
-    carry0.set((subtracts & !is(step, Step::Begin)) | (take_modulus_off & short));
+    carry0.set((subtracts & !step.eq(codes.of(Step::Begin))) | (take_modulus_off & short));
     let carry = m.reg("carry", 1).doc("1 to add to the other sums").set(take_modulus_off & short);
     Addends { n: [n0, n1, n2].map(Reg::q), carry0: carry0.q(), carry: carry.q(), of_slot }
 }
@@ -103,18 +104,21 @@ pub(super) struct Done<'m> {
 pub(super) fn step<'m>(
     m: &'m Module,
     inputs: &Inputs<'m>,
+    codes: &StepCodes<'m>,
     addends: &Addends<'m>,
     rest: &Rest<'m>,
 ) -> Done<'m> {
     m.comment("The step: x plus the addend, less M as often as M fits.");
     let (step, number) = (inputs.step, inputs.number);
+    let is = |step: Signal<'m>, which| step.eq(codes.of(which));
+    let either = |one, other| is(step, one) | is(step, other);
     let slot = rest.now.q().width();
     let (bits, sums) = (slot + 1, slot + 2);
     let now = m.reg("now", Step::BITS).doc("the step done").set(step).q();
-    let fourfold = flag(m, "fourfold", one_of(step, &[Step::Double2, Step::Digits]));
-    let twofold = flag(m, "twofold", one_of(step, &[Step::Double1, Step::Next]));
-    let keeps = flag(m, "keeps", one_of(step, &[Step::Rest, Step::Add]));
-    let takes = flag(m, "takes", one_of(step, &[Step::Take, Step::Begin]));
+    let fourfold = flag(m, "fourfold", either(Step::Double2, Step::Digits));
+    let twofold = flag(m, "twofold", either(Step::Double1, Step::Next));
+    let keeps = flag(m, "keeps", either(Step::Rest, Step::Add));
+    let takes = flag(m, "takes", either(Step::Take, Step::Begin));
     let added = m.reg("added", number.width()).doc("number or digits taken in; 0 if there are none");
     let of_digits = is(step, Step::Digits).mux(inputs.digits.zext(number.width()), 0);
     added.set(is(step, Step::Take).mux(number, of_digits));
@@ -144,15 +148,4 @@ pub(super) fn step<'m>(
         "the number that was taken in is not between -M and M",
     );
     Done { fourfold, twofold, keeps, below, fits: [f0, f1, f2], of_slot }
-}
-
-/// The step is this one.
-pub(super) fn is(step: Signal<'_>, which: Step) -> Signal<'_> {
-    step.eq(which as i32)
-}
-
-/// The step is one of these.
-fn one_of<'m>(step: Signal<'m>, which: &[Step]) -> Signal<'m> {
-    let found = which.iter().map(|one| is(step, *one)).reduce(|any, one| any | one);
-    found.unwrap_or(step.module().lit(1, 0))
 }

@@ -3,13 +3,18 @@
 use edgewalk_netlist::{Module, Reg, Signal};
 
 use super::inputs::Inputs;
-use super::step::{Done, Modulus, is};
+use super::step::{Done, Modulus};
 use super::{apart, flag, repeat};
-use crate::setup::steps::Step;
+use crate::setup::steps::{Step, StepCodes};
 use crate::wires::plus;
 
 /// The whole part, a clock behind the rest.
-pub(super) fn whole<'m>(m: &'m Module, inputs: &Inputs<'m>, done: &Done<'m>) -> Signal<'m> {
+pub(super) fn whole<'m>(
+    m: &'m Module,
+    inputs: &Inputs<'m>,
+    codes: &StepCodes<'m>,
+    done: &Done<'m>,
+) -> Signal<'m> {
     m.comment("The whole part, a clock behind.");
     let (bits, fourfold) = (inputs.whole_in.width(), done.fourfold);
     let read_whole_at = m.reg("read_whole_at", 3).set(inputs.read_at);
@@ -21,7 +26,7 @@ pub(super) fn whole<'m>(m: &'m Module, inputs: &Inputs<'m>, done: &Done<'m>) -> 
     let wholes = wholes.write(write.q(), write_at.q(), whole_next.q());
     let apart = apart(write.q(), write_at.q(), read_whole_at.q());
     let stored = wholes.read(apart, read_whole_at.q());
-    let subtracted = m.reg("subtracted", 1).set(is(inputs.step, Step::Sign)).q();
+    let subtracted = m.reg("subtracted", 1).set(inputs.step.eq(codes.of(Step::Sign))).q();
     let slot_now = m.reg("slot_now", 1).set(done.of_slot).q();
     let b = m.reg("b", bits).doc("addend");
     let same = repeat(subtracted | done.below, bits);
