@@ -142,7 +142,8 @@ module edgewalk_setup_lane0 (
   reg [2:0] read_whole_at;
   reg [45:0] whole;         // modular
   wire [45:0] whole_next;
-  reg write_then;
+  reg write_then;           // 0 at the start: slot 0 is not written
+  initial write_then = 1'b0;
   reg [2:0] write_then_at;
   reg [45:0] wholes [0:7];  // modular
 

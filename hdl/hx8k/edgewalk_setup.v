@@ -396,6 +396,7 @@ module edgewalk_setup (
   localparam [2:0] MODE_UPPER = 3'd6;
   localparam [2:0] MODE_LOWER = 3'd7;
   reg runs;  // the first word is there
+  initial runs = 1'b0;
 
   always @(posedge clk) begin
     if (rst) begin
@@ -646,6 +647,7 @@ module edgewalk_setup (
 
   // The words of a triangle.
   reg [1:0] vertex;                                 // of the word that comes; 3: behind the vertices
+  initial vertex = 2'd0;
   reg [3:0] part;                                   // of the vertex: x, y, the channels
   wire fires = in_valid && idle;
   wire closes = part == 4'd5;                       // the last word of a vertex
@@ -696,9 +698,13 @@ module edgewalk_setup (
   reg [6:0] write_row_next;
   reg [6:0] write_row_now;
   reg write_a_next;
+  initial write_a_next = 1'b0;
   reg write_a_now;
+  initial write_a_now = 1'b0;
   reg write_w_next;
+  initial write_w_next = 1'b0;
   reg write_w_now;
+  initial write_w_now = 1'b0;
   reg step_raised;
   reg does_step;
   wire either_7 = (mode == MODE_VERTEX) || (mode == MODE_UPPER) || (mode == MODE_LOWER);

@@ -129,7 +129,7 @@ pub struct Wire {
 }
 
 /// A register. At the clock: `reset` if it has one and `rst` is 1; else the value of the last update whose condition
-/// is 1; else as before. Before the first of these it is 0 here and unknown in Verilog.
+/// is 1; else as before. Before the first of these it is 0 here; in Verilog it is unknown, unless it starts at zero.
 #[derive(Clone, Debug)]
 pub struct Register {
     /// Name of the register.
@@ -140,6 +140,8 @@ pub struct Register {
     pub node: NodeId,
     /// Value after a clock with `rst` = 1.
     pub reset: Option<u128>,
+    /// Verilog says that it is 0 before the first clock.
+    pub starts_at_zero: bool,
     /// In order of priority, the strongest last.
     pub updates: Vec<Update>,
 }

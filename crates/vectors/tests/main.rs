@@ -7,6 +7,7 @@ mod directory;
 mod edits;
 mod lockstep;
 mod mutants;
+mod power_up;
 mod reach;
 mod replay;
 mod rules;

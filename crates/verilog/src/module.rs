@@ -114,6 +114,10 @@ impl<'n> Printer<'n> {
                     let range = literal::range(netlist.width(register.node));
                     self.body.line(format!("reg {range}{};", register.name), &register.doc);
                 }
+                if register.starts_at_zero {
+                    let zero = literal::unsigned(Bits { value: 0, width: netlist.width(register.node) });
+                    self.body.line(format!("initial {} = {zero};", register.name), "");
+                }
             }
             Item::Memory(index) => {
                 memory::declare(&mut self.writer, &mut self.body, &netlist.memories[*index]);

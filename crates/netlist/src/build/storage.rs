@@ -26,6 +26,7 @@ impl<'m> Reg<'m> {
             doc: String::new(),
             node: q.id,
             reset: None,
+            starts_at_zero: false,
             updates: Vec::new(),
         };
         module.draft().netlist.registers.push(register);
@@ -49,6 +50,13 @@ impl<'m> Reg<'m> {
     pub fn reset(self, value: u128) -> Self {
         let value = self.q.module.checked_value(self.q.width, value);
         self.q.module.draft().netlist.registers[self.index].reset = Some(value);
+        self
+    }
+
+    /// It is 0 before the first clock, as the contents of a memory are there then: for what decides whether a word of
+    /// such a memory is written.
+    pub fn starts_at_zero(self) -> Self {
+        self.q.module.draft().netlist.registers[self.index].starts_at_zero = true;
         self
     }
 

@@ -82,6 +82,7 @@ fn read_case(netlist: &mut Netlist, rom: &Memory, read: &MemoryRead, item: Item)
         doc: String::new(),
         node: read.node,
         reset: None,
+        starts_at_zero: false,
         updates: vec![Update { when: Some(read.en), value }],
     });
     netlist.nodes[read.node.index()].source = Source::Register(register);

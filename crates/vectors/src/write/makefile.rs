@@ -112,10 +112,12 @@ BIND = $(if $(filter 1,$(RULES)),{modules} {bind})
 
 const MAKEFILE: &str = r#"# Targets: icarus, verilator, lint, cocotb, clean. Each run fails unless the test bench prints PASS.
 #   make icarus RULES=1                the rules of rules.v look at the design too: a broken one fails
+#   make verilator SEED=2              registers and memories without a start value begin with other random bits
 #   make cocotb PYTHON=venv/bin/python SIMULATOR=verilator   a Python that has the package edgewalk_vectors and cocotb
 {head}HDL = {hdl}
 BENCH = {bench}
 {timing}RULES = 0
+SEED = 1
 SHA256SUM = sha256sum
 PYTHON = python3
 SIMULATOR = icarus
@@ -142,13 +144,13 @@ icarus: check
 	$(call judge,icarus.log)
 
 # Verilator knows by itself what need not be compiled again. A foreign file may lack `timescale, or draw warnings: lint is
-# where they count.
+# where they count. Verilator has no unknown bits: registers and memories without a start value begin with random ones.
 verilator: check
 	$(call needs,verilator,try: {verilator})
 	@verilator --binary --timing -O3 -Wno-fatal --timescale 1ns/1ps {defines}--top-module tb{include} $(HDL) $(BENCH) $(BIND) >build.log 2>&1 \
 		|| { cat build.log >&2; exit 1; }
 	@grep "^%" build.log >&2 || :
-	@./obj_dir/Vtb >verilator.log 2>&1 || :
+	@./obj_dir/Vtb +verilator+rand+reset+2 +verilator+seed+$(SEED) >verilator.log 2>&1 || :
 	$(call judge,verilator.log)
 
 cocotb:

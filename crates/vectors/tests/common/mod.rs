@@ -63,7 +63,7 @@ impl<'a> Natives<'a> {
 pub fn made(folder: &Path, arguments: &[&str]) -> (bool, String) {
     let mut make = Command::new("make");
     // What a surrounding make or the user's shell says to make is none of this one's business.
-    for name in ["MAKEFLAGS", "MAKELEVEL", "MFLAGS", "HDL", "CHECK_CYCLES", "RULES", "SHA256SUM"] {
+    for name in ["MAKEFLAGS", "MAKELEVEL", "MFLAGS", "HDL", "CHECK_CYCLES", "RULES", "SEED", "SHA256SUM"] {
         make.env_remove(name);
     }
     // The C++ that Verilator writes runs for a moment only: to optimise it takes longer.

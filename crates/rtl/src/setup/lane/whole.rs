@@ -20,7 +20,8 @@ pub(super) fn whole<'m>(
     let read_whole_at = m.reg("read_whole_at", 3).set(inputs.read_at);
     let whole = m.reg("whole", bits).doc("modular");
     let whole_next = m.wire("whole_next", bits);
-    let write = m.reg("write_then", 1).set(inputs.write);
+    let write = m.reg("write_then", 1).doc("0 at the start: slot 0 is not written").starts_at_zero();
+    let write = write.set(inputs.write);
     let write_at = m.reg("write_then_at", 3).set(inputs.write_at);
     let wholes = m.memory("wholes", 3, 8, bits).starts(0).doc("modular");
     let wholes = wholes.write(write.q(), write_at.q(), whole_next.q());

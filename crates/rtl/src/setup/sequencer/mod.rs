@@ -80,7 +80,8 @@ pub(super) fn setup(plan: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
     m.comment("The program.");
     let next = m.wire("next_place", code::place_bits(program));
     let word = code::rom(&m, program, next.q());
-    let runs = m.reg("runs", 1).doc("the first word is there").reset(0).set(1).q();
+    let runs = m.reg("runs", 1).doc("the first word is there").reset(0).starts_at_zero();
+    let runs = runs.set(1).q();
     let lanes = lanes(&m, plan, program)?;
     let role = plan.polygon.has_lines().then(|| {
         let taken = |name: &str, doc: &str| m.reg(&format!("taken_{name}"), 1).doc(doc);

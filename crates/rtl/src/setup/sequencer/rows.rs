@@ -45,8 +45,12 @@ pub(super) fn connect<'m>(
         m.cat(&[write_row.slice(write_row.width() - 1, 3), write_row.trunc(3) | number])
     });
     let write_row = input.fires.mux(input.row, twice("write_row", write_row).zext(ROW_BITS));
-    let write_a = twice("write_a", get("write_a") & *runs);
-    let write_w = twice("write_w", get("write_w") & *runs);
+    // The rows that are there from the start stay as they are in the clocks before the first reset ends.
+    let from_zero = |name: String, signal| m.reg(&name, 1).starts_at_zero().set(signal).q();
+    let twice_from_zero =
+        |name: &str, signal| from_zero(format!("{name}_now"), from_zero(format!("{name}_next"), signal));
+    let write_a = twice_from_zero("write_a", get("write_a") & *runs);
+    let write_w = twice_from_zero("write_w", get("write_w") & *runs);
     let raised = later("step_raised", get("raised"));
     let number = control.number.map(|number| later("step_number", number));
     let steps_later = later("does_step", steps);
