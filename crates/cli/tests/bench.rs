@@ -17,7 +17,7 @@ fn bench(arguments: &[&str]) -> Value {
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("steps.tri");
     let mut text = String::from("size 40 30\n");
-    for i in 0..300 {
+    for i in 0..100 {
         let (x, z) = (i % 30, f64::from(i % 7) / 7.0);
         writeln!(text, "T {x} 2 {z} 1 0 0 0  {x} 29 0.5 0 1 0 0  39.5 {} 0 0 0 1 0", i % 28).unwrap();
     }
@@ -47,7 +47,7 @@ fn every_engine_says_how_fast_it_is() {
     assert_eq!(result["cpu_ms_median"], engines[0]["cpu_ms_median"]);
     assert_eq!(result["ms_min"], engines[0]["ms_min"]);
     let cycles = result["cycles"].as_u64().unwrap();
-    assert!(cycles > 50_000, "{cycles} cycles");
+    assert!(cycles > 15_000, "{cycles} cycles");
     for row in engines {
         if let Some(absent) = row["absent"].as_str() {
             assert_eq!(absent, "verilator is not installed");

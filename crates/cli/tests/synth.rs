@@ -172,7 +172,7 @@ fn the_units_of_the_engine_add_up() {
             std::os::unix::fs::symlink(found, tools.join(tool)).unwrap();
         }
     }
-    let arguments = ["synth", "--cache", "cache", "--json", "--unit", "engine"];
+    let arguments = ["synth", "--cache", "cache", "--json", "--unit", "engine", "--machine", "small"];
     let output = edgewalk(folder.path(), &arguments).env("PATH", &tools).output().unwrap();
     assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
     let report: Value = serde_json::from_slice(&output.stdout).unwrap();

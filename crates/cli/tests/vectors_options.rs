@@ -229,9 +229,11 @@ fn machines_with_poly_warn_of_nothing() {
     let folder = tempfile::tempdir().expect("a folder");
     for lines in ["no", "yes"] {
         let lines = format!("polygon.lines={lines}");
+        // The same cases as on the preset's own screen, with shorter spans.
+        let screen = ["--set", "screen.width=48", "--set", "screen.height=40"];
         let machine = ["--machine", "polygon", "--set", &lines, "--no-csv", "--out", "v"];
         let units = ["--unit", "span", "--unit", "pixel", "--unit", "poly"];
-        let (code, said) = run(folder.path(), &[&["vectors"], &units[..], &machine].concat());
+        let (code, said) = run(folder.path(), &[&["vectors"], &units[..], &machine, &screen].concat());
         assert!(code == Some(0) && !said.contains("warning"), "{lines}: {said}");
     }
 }

@@ -73,6 +73,7 @@ fn a_hundred_thousand_triangles() {
     let machine = Plan::default();
     let mut rng = StdRng::seed_from_u64(3);
     let (mut worst, mut checked) = ([0f64; 4], 0u64);
+    let mut drawn = Vec::new();
     for _ in 0..TRIANGLES / 1000 {
         let triangles: Vec<_> = (0..1000)
             .map(|_| {
@@ -80,17 +81,21 @@ fn a_hundred_thousand_triangles() {
                 random_triangle(&machine, size, &mut rng)
             })
             .collect();
-        let mut drawn = Vec::new();
-        common::fragments(&machine, &triangles, |id, (x, y), values| drawn.push((id, y, x, values)));
+        drawn.clear();
+        common::fragments(&machine, &triangles, |id, (x, y), values| {
+            let values: [i64; 4] = values[..4].try_into().expect("z, r, g, b");
+            drawn.push(((id as u64) << 32 | (y as u64) << 16 | x as u64, values));
+        });
         // A span may run from right to left.
-        drawn.sort_by_key(|(id, y, x, _)| (*id, *y, *x));
-        let mut drawn = drawn.into_iter();
+        drawn.sort_by_key(|(place, _)| *place);
+        let mut drawn = drawn.iter();
         let frame = frame(&machine, &triangles);
         let screen = (machine.width, machine.height);
         for (triangle, id) in frame.triangles.iter().zip(0..) {
             fragments(triangle, frame.mode, machine.subpixel_bits, screen, |golden| {
-                let (by, y, x, values) = drawn.next().expect("as many fragments as the half-planes hold");
-                assert_eq!((by, x as u32, y as u32), (id, golden.x, golden.y), "{triangle:?}");
+                let (place, values) = drawn.next().expect("as many fragments as the half-planes hold");
+                let [by, y, x] = [32, 16, 0].map(|shift| (place >> shift) as u32 & 0xffff);
+                assert_eq!((by as usize, x, y), (id, golden.x, golden.y), "{triangle:?}");
                 let [r, g, b] = golden.rgb();
                 for (i, golden) in [golden.z(), r, g, b].into_iter().enumerate() {
                     worst[i] = worst[i].max(off(values[i] as u64, golden, machine.channels()[i].max()));
@@ -126,7 +131,7 @@ fn the_textbook_listing_in_its_order() {
     for (triangle, id) in frame.triangles.iter().zip(0..) {
         half_triangles(triangle, frame.mode, (machine.width, machine.height), |_, golden| {
             let (by, x, y, output) = drawn.next().expect("as many fragments as in the listing");
-            assert_eq!((by, x, y), (id, golden.x, golden.y), "{triangle:?}");
+            assert_eq!((by as usize, x, y), (id, golden.x, golden.y), "{triangle:?}");
             let [r, g, b] = golden.rgb();
             for ((output, golden), channel) in
                 output.into_iter().zip([golden.z(), r, g, b]).zip(machine.channels())
