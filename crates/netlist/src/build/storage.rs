@@ -53,8 +53,8 @@ impl<'m> Reg<'m> {
         self
     }
 
-    /// It is 0 before the first clock, as the contents of a memory are there then: for what decides whether a word of
-    /// such a memory is written.
+    /// The register is 0 before the first clock, when a memory has its first contents. So is whatever decides whether a
+    /// word of such a memory is written.
     pub fn starts_at_zero(self) -> Self {
         self.q.module.draft().netlist.registers[self.index].starts_at_zero = true;
         self
