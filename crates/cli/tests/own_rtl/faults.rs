@@ -116,6 +116,18 @@ fn a_silent_design_fails_with_code_1() {
     assert!(xml.contains("tests=\"1\" failures=\"1\"") && xml.contains(">no token came: expected "), "{xml}");
 }
 
+/// Verilator has no unknown bits: a register that is never reset begins with random ones.
+#[test]
+fn a_register_without_a_reset_fails_in_verilator() {
+    let folder = folder();
+    edit(folder.path(), "my_pixel.v", "z[ZW-1-:24]", "z[ZW-1-:24] ^ never");
+    let never = "reg [23:0] never;\n  always @(posedge aclk) never <= never;\n  always @(posedge aclk or";
+    edit(folder.path(), "my_pixel.v", "always @(posedge aclk or", never);
+    let arguments = ["verify", "--dut", "pixel.toml", "--simulator", "verilator", "--only", "flat_top"];
+    let (code, text) = told(&edgewalk(folder.path(), &arguments));
+    assert!(code == Some(1) && text.contains("frag_z: expected "), "{text}");
+}
+
 /// Not part of the test run: a dozen builds. `cargo test --release -p edgewalk-cli own_rtl:: -- --ignored`
 #[test]
 #[ignore = "three minutes"]
