@@ -42,25 +42,37 @@ fn a_register_that_needs_its_start_is_found_by_a_seed() {
     assert!(made(folder.path(), &["icarus"]).0);
 }
 
-/// Both kinds of SETUP with 100 seeds each, not part of the test run:
+/// Every kind of machine with many seeds, not part of the test run:
 /// `cargo test --release -p edgewalk-vectors power_up:: -- --ignored --nocapture`
 #[test]
 #[ignore = "minutes"]
-fn a_hundred_seeds_change_nothing() {
-    let machines: Vec<_> = common::twelve().into_iter().step_by(2).collect();
-    let sequenced = machines.iter().filter(|(_, machine)| machine.is_sequenced()).count();
-    assert!(sequenced > 0 && sequenced < machines.len());
-    let done = common::two_at_a_time(&machines, |_, (name, machine)| {
-        let folder = tempfile::tempdir().expect("a folder");
-        for unit in [Unit::MACHINE, common::SETUP] {
-            let suite = Suite::named(machine, "random", 5, 12).expect("listed");
-            let trace = capture(machine, unit, &suite, suite.state, StallKind::Mixed);
-            let verilog = design::verilog(machine, unit).expect("a checked machine");
-            let vectors = folder.path().join(unit.name());
-            write(&directory(&suite, &trace, &verilog, Tables::LeftOut), &vectors);
-            assert_eq!(fails(&vectors, 1..=100), None, "{name}, {}", unit.name());
+fn no_seed_changes_anything() {
+    let kinds: [(Vec<(&str, Plan)>, &str, u32); 6] = [
+        (common::twelve(), "random", 100),
+        (common::shades(), "shade", 20),
+        (common::lights(), "light", 20),
+        (common::glass(), "blend_add", 20),
+        (common::polygonal(), "polygon", 20),
+        (common::lined(), "lines", 20),
+    ];
+    let mut runs = Vec::new();
+    for (machines, suite, seeds) in &kinds {
+        for (name, machine) in machines {
+            runs.extend([Unit::MACHINE, common::SETUP].map(|unit| (*name, machine, unit, *suite, *seeds)));
         }
-        println!("{name}: 200 / 200 runs pass");
+    }
+    let of = |sequenced: bool| runs.iter().filter(|run| run.1.is_sequenced() == sequenced).count();
+    assert!(of(true) > 10 && of(false) > 10, "both kinds of SETUP");
+    let done = common::two_at_a_time(&runs, |_, (name, machine, unit, suite, seeds)| {
+        let folder = tempfile::tempdir().expect("a folder");
+        let suite = Suite::named(machine, suite, 5, 12).expect("listed");
+        let trace = capture(machine, *unit, &suite, suite.state, StallKind::Mixed);
+        let verilog = design::verilog(machine, *unit).expect("a checked machine");
+        write(&directory(&suite, &trace, &verilog, Tables::LeftOut), folder.path());
+        assert_eq!(fails(folder.path(), 1..=*seeds), None, "{name}, {}", unit.name());
+        println!("{name}, {}: {seeds} / {seeds} seeds pass", unit.name());
+        u64::from(*seeds)
     });
-    assert_eq!(done.len(), machines.len());
+    println!("{} machines and units, {} runs pass", done.len(), done.iter().sum::<u64>());
+    assert_eq!(done.len(), runs.len());
 }
