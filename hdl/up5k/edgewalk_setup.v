@@ -605,7 +605,6 @@ module edgewalk_setup (
 
   // The words of a triangle.
   reg [1:0] vertex;                                 // of the word that comes; 3: behind the vertices
-  initial vertex = 2'd0;
   reg [3:0] part;                                   // of the vertex: x, y, the channels
   wire fires = in_valid && idle;
   wire closes = part == 4'd5;                       // the last word of a vertex

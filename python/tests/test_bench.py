@@ -7,6 +7,7 @@ import pytest
 from conftest import SMALL
 
 from edgewalk_vectors import Bench, Directory, Fault, VectorsError
+from edgewalk_vectors.bench import Held
 
 UNITS = ["machine", "setup", "edge", "span", "pixel", "depth"]
 
@@ -125,6 +126,21 @@ def test_held_value_may_change_with_the_next_triangle(player, tmp_path):
 
     checked, bench = played(tmp_path / "v", player(of_unit), keep)
     assert checked == bench.expected
+
+
+@pytest.mark.parametrize("by_cycle, taken_with, faults", [
+    (True, None, 1),     # compared by cycle: the second triangle, taken ahead, ends nothing
+    (False, None, 0),    # compared by order: it may be the one whose values are shown
+    (True, "prim_ends", 2),  # a token of `prim` without prim_ends ends nothing
+])
+def test_what_ends_a_held_value(by_cycle, taken_with, faults):
+    rule = {"channel": "line", "ports": ["inc_z"], "fresh": "line_fresh", "taken": "prim", "taken_with": taken_with}
+    held = Held(rule, (), by_cycle)
+    prim, line = {"prim_ends": 0}, {"line_fresh": 1}
+    moves = [{"prim": prim}, {"prim": prim}, {"line": line}, {}, {"prim": prim}, {}]
+    for cycle, (moved, value) in enumerate(zip(moves, [0, 0, 1, 2, 2, 3])):
+        held.sample(cycle, {"inc_z": value}, moved)
+    assert len(held.faults) == faults, held.faults
 
 
 def test_token_that_changes_while_it_waits_fails(vectors, player):

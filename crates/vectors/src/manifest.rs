@@ -325,7 +325,7 @@ pub struct HeldValues {
     pub ports: Vec<String>,
     /// The port that is 1 with the first token of a triangle.
     pub fresh: String,
-    /// The channel in whose token takes the next triangle.
+    /// The channel in. Its token brings the next triangle.
     pub taken: String,
     /// The port that is 1 with such a token; null if each token of `taken` is one.
     pub taken_with: Option<String>,

@@ -3,7 +3,7 @@
 
 use crate::common;
 use crate::common::{made, small, write};
-use edgewalk_machine::Plan;
+use edgewalk_machine::{Machine, Plan, SetupKind};
 use edgewalk_vectors::{StallKind, Suite, Tables, Unit, capture, design, directory};
 use std::path::Path;
 
@@ -24,22 +24,32 @@ fn fails(folder: &Path, mut seeds: std::ops::RangeInclusive<u32>) -> Option<u32>
     })
 }
 
-/// The number 0 of the lanes is in a memory: without the start of the register that lets it be written, some seeds write it.
+/// SETUP's memories have first contents. Without the start of the registers that let them be written some seeds write
+/// over them.
 #[test]
-fn a_register_that_needs_its_start_is_found_by_a_seed() {
-    let folder = tempfile::tempdir().expect("a folder");
-    vectors(&small(), folder.path());
-    assert_eq!(fails(folder.path(), 1..=4), None);
-    let path = folder.path().join("hdl/edgewalk_setup_lane0.v");
-    let text = std::fs::read_to_string(&path).expect("a file of the design");
-    let start = "  initial write_then = 1'b0;\n";
-    assert!(text.contains(start), "{text}");
-    std::fs::write(&path, text.replace(start, "")).expect("written");
-    let found = fails(folder.path(), 1..=40);
-    println!("seed {found:?}");
-    assert!(found.is_some());
-    // Icarus has unknown bits there, and a condition that is unknown writes nothing.
-    assert!(made(folder.path(), &["icarus"]).0);
+fn registers_that_need_their_start_are_found_by_a_seed() {
+    let parallel = small();
+    let sequenced = Machine { setup_kind: SetupKind::Sequenced, lanes: 1, ..Machine::clone(&parallel) };
+    let writes = ["runs", "write_a_next", "write_a_now", "write_w_next", "write_w_now"];
+    for (machine, file, expected) in [
+        (parallel, "edgewalk_setup_lane0.v", &["write_then"][..]),
+        (sequenced.plan().expect("can be built"), "edgewalk_setup.v", &writes),
+    ] {
+        let folder = tempfile::tempdir().expect("a folder");
+        vectors(&machine, folder.path());
+        assert_eq!(fails(folder.path(), 1..=4), None);
+        let path = folder.path().join("hdl").join(file);
+        let text = std::fs::read_to_string(&path).expect("a file of the design");
+        let start = |line: &str| Some(line.strip_prefix("  initial ")?.strip_suffix(" = 1'b0;")?.to_owned());
+        assert_eq!(text.lines().filter_map(start).collect::<Vec<_>>(), expected);
+        let without = text.lines().filter(|line| start(line).is_none()).collect::<Vec<_>>().join("\n");
+        std::fs::write(&path, without + "\n").expect("written");
+        let found = fails(folder.path(), 1..=40);
+        println!("{file}: seed {found:?}");
+        assert!(found.is_some());
+        // Icarus has unknown bits there, and a condition that is unknown writes nothing.
+        assert!(made(folder.path(), &["icarus"]).0);
+    }
 }
 
 /// Every kind of machine with many seeds, not part of the test run:

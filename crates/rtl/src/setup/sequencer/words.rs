@@ -33,7 +33,6 @@ pub(super) fn words<'m>(
     let Parts { m, plan, .. } = *parts;
     m.comment("The words of a triangle.");
     let vertex = m.reg("vertex", 2).doc("of the word that comes; 3: behind the vertices").reset(0);
-    let vertex = vertex.starts_at_zero();
     let part = m.reg("part", PART_BITS).doc("of the vertex: x, y, the channels").reset(0);
     let fires = (valid & control.idle).named("fires");
     let channels = plan.channels().len() as u128;
