@@ -66,16 +66,27 @@ impl Drop for Chromium {
     }
 }
 
-/// A browser with one page, which has no cookies, storage or cache of other pages.
+/// A page of the browser. It is closed with this value. The pages share cookies and storage, which none of them has.
 pub struct Browser {
     _chromium: Arc<Chromium>,
     socket: WebSocket<MaybeTlsStream<TcpStream>>,
     session: String,
+    /// The page, for the browser.
+    target: Value,
     asked: u64,
     /// Messages of the console, exceptions, entries of the log.
     pub said: Vec<String>,
     /// Addresses that were asked for, but the page itself and what stands in it.
     pub requests: Vec<String>,
+}
+
+impl Drop for Browser {
+    fn drop(&mut self) {
+        let close = json!({ "id": 0, "method": "Target.closeTarget", "params": { "targetId": self.target } });
+        // The browser may be gone already.
+        let _ = self.socket.send(Message::text(close.to_string()));
+        let _ = self.socket.close(None);
+    }
 }
 
 /// Longest wait for an answer.
@@ -90,15 +101,14 @@ impl Browser {
             _chromium: chromium,
             socket,
             session: String::new(),
+            target: Value::Null,
             asked: 0,
             said: Vec::new(),
             requests: Vec::new(),
         };
-        // The page ends with the socket.
-        let context = browser.ask("Target.createBrowserContext", json!({ "disposeOnDetach": true }));
-        let page = json!({ "url": "about:blank", "browserContextId": context["browserContextId"] });
-        let target = browser.ask("Target.createTarget", page);
+        let target = browser.ask("Target.createTarget", json!({ "url": "about:blank" }));
         let attach = json!({ "targetId": target["targetId"], "flatten": true });
+        browser.target = target["targetId"].clone();
         let session = browser.ask("Target.attachToTarget", attach);
         browser.session = session["sessionId"].as_str().expect("a session").to_owned();
         for domain in ["Page", "Runtime", "Network", "Log"] {
