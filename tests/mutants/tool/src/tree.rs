@@ -1,9 +1,11 @@
 //! Copies of the tree, in which faults are put.
 
 use std::collections::BTreeMap;
+use std::ffi::OsStr;
 use std::fs::Permissions;
 use std::hash::{DefaultHasher, Hash, Hasher};
-use std::os::unix::fs::PermissionsExt;
+use std::os::unix::ffi::{OsStrExt, OsStringExt};
+use std::os::unix::fs::{PermissionsExt, symlink};
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result};
@@ -11,8 +13,10 @@ use anyhow::{Context, Result};
 /// What a file holds, and who may do what with it: some are run.
 #[derive(Clone, PartialEq, Hash)]
 pub struct Content {
+    /// Of a symbolic link: where it points.
     pub bytes: Vec<u8>,
-    mode: u32,
+    /// Bits of the permissions; none of a symbolic link.
+    mode: Option<u32>,
 }
 
 /// Files by path from the top of a tree.
@@ -32,11 +36,15 @@ pub fn files(top: &Path) -> Result<Files> {
             if LEFT.iter().any(|left| place == Path::new(left)) {
                 continue;
             }
-            if entry.file_type()?.is_dir() {
+            let kind = entry.file_type()?;
+            if kind.is_dir() {
                 folders.push(place);
+            } else if kind.is_symlink() {
+                let bytes = std::fs::read_link(entry.path())?.into_os_string().into_vec();
+                found.insert(place, Content { bytes, mode: None });
             } else {
                 let bytes = std::fs::read(entry.path()).with_context(|| place.display().to_string())?;
-                let mode = entry.metadata()?.permissions().mode();
+                let mode = Some(entry.metadata()?.permissions().mode());
                 found.insert(place, Content { bytes, mode });
             }
         }
@@ -59,8 +67,15 @@ pub fn hold(top: &Path, wanted: &Files) -> Result<()> {
         if let Some(folder) = path.parent() {
             std::fs::create_dir_all(folder)?;
         }
+        if there.contains_key(place) {
+            std::fs::remove_file(&path)?;
+        }
+        let Some(mode) = content.mode else {
+            symlink(OsStr::from_bytes(&content.bytes), &path).with_context(|| path.display().to_string())?;
+            continue;
+        };
         std::fs::write(&path, &content.bytes).with_context(|| path.display().to_string())?;
-        std::fs::set_permissions(&path, Permissions::from_mode(content.mode))?;
+        std::fs::set_permissions(&path, Permissions::from_mode(mode))?;
     }
     Ok(())
 }
@@ -77,4 +92,33 @@ pub fn key(files: &Files, words: &[&str]) -> String {
     }
     words.hash(&mut hasher);
     format!("{:016x}", hasher.finish())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_copy_has_the_files_and_links_of_the_tree() -> Result<()> {
+        let folder = std::env::temp_dir().join(format!("edgewalk-tree-{}", std::process::id()));
+        let [tree, copy] = ["tree", "copy"].map(|name| folder.join(name));
+        std::fs::create_dir_all(tree.join("docs"))?;
+        std::fs::write(tree.join("docs/scene"), "red")?;
+        symlink("docs", tree.join("scenes"))?;
+        let wanted = files(&tree)?;
+        assert_eq!(wanted.len(), 2);
+        // The second time into a copy where a file is a link and the link leads elsewhere.
+        for _ in 0..2 {
+            hold(&copy, &wanted)?;
+            assert!(files(&copy)? == wanted);
+            assert_eq!(std::fs::read(copy.join("scenes/scene"))?, b"red");
+            std::fs::remove_file(copy.join("docs/scene"))?;
+            symlink(tree.join("docs/scene"), copy.join("docs/scene"))?;
+            std::fs::remove_file(copy.join("scenes"))?;
+            symlink("elsewhere", copy.join("scenes"))?;
+        }
+        assert_eq!(std::fs::read(tree.join("docs/scene"))?, b"red");
+        std::fs::remove_dir_all(&folder)?;
+        Ok(())
+    }
 }
