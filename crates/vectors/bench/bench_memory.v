@@ -24,6 +24,8 @@ module bench_memory #(
     output wire [WIDTH-1:0]   data,
     output wire               fire
 );
+    localparam MOST = 4096;
+
     // More than the 2048 reads that can be in flight: tables are asked for faster than they are taken.
     reg [WIDTH-1:0] waiting [0:4095];
     reg [31:0]      due [0:4095];
@@ -31,12 +33,16 @@ module bench_memory #(
     reg [11:0]      free;
     reg             held;
     reg [WIDTH-1:0] words [0:(1 << ADDRESS) - 1];
-    reg             used = 1'b1;  // not filled after the last clock without reset
+    reg [ADDRESS-1:0] written [0:MOST-1];  // addresses of the writes since the last fill
+    integer         writes = MOST + 1;     // how many; above MOST every word is filled
     integer         i;
 
+    // To fill all words of a large memory takes longer than a short case.
     task fill; begin
-        for (i = 0; i < (1 << ADDRESS); i = i + 1) words[i] = CLEAR;
+        if (writes > MOST) for (i = 0; i < (1 << ADDRESS); i = i + 1) words[i] = CLEAR;
+        else for (i = 0; i < writes; i = i + 1) words[written[i]] = CLEAR;
         if (STARTS > 0) $readmemh(START, words, 0, STARTS - 1);
+        writes = 0;
     end endtask
 
     assign valid = !rst && first != free && due[first] <= cycle && (held || willing);
@@ -48,10 +54,8 @@ module bench_memory #(
             first <= 0;
             free  <= 0;
             held  <= 1'b0;
-            used  <= 1'b0;
-            if (used) fill;
+            if (writes > 0) fill;
         end else begin
-            used <= 1'b1;
             if (fire) first <= first + 1;
             held <= valid && !ready;
             if (read) begin
@@ -59,7 +63,11 @@ module bench_memory #(
                 due[free]     <= cycle + LATENCY;
                 free          <= free + 1;
             end
-            if (write) words[write_address] = write_data;
+            if (write) begin
+                words[write_address] = write_data;
+                if (writes < MOST) written[writes] = write_address;
+                if (writes <= MOST) writes = writes + 1;
+            end
         end
 endmodule
 `default_nettype wire
