@@ -172,6 +172,12 @@ impl Source {
         }
     }
 
+    /// Like `frame`, of the first triangles, polygons and lines of the input, at most so many. A scene's triangles are counted as
+    /// they are drawn.
+    pub fn first(&self, machine: &Plan, most: usize) -> Result<Frame> {
+        in_triangles(self.whole(machine)?.first(most), machine)
+    }
+
     /// The frame as `raster` draws it: like `frame`, but a triangle file has its polygons, and nothing is cut at the guard band.
     pub fn whole(&self, machine: &Plan) -> Result<Frame> {
         match (self.is_triangle_file(), self.shading) {

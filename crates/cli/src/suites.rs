@@ -40,6 +40,7 @@ pub fn of_input(input: &str, machine: &Plan, port: &PortFrame, triangles: Option
     let map = port.passes.first().and_then(|pass| port.lights.get(pass.map?));
     let sent = Sent {
         triangles: &port.triangles,
+        ids: &port.ids,
         state: port.one_state()?,
         map: map.map(|map| map.words.as_slice()),
         shading: port.words(),

@@ -28,6 +28,32 @@ fn dithered_pictures_pass_beside_golden() {
     }
 }
 
+/// The light's map has as many bits a colour as the channels: DITHER rounds the picture, not the light.
+#[test]
+fn panes_under_a_light_let_as_much_through_with_dither() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let white = "1 1 1 0";
+    let file = format!(
+        "size 4 4\nshadow 4 0 0  1 0 0 0  0 1 0 0  0 0 1 0  0 0 0 1\nL 0 0 0.2  1 0 0.2  0 1 0.2 0.5\n\
+         T 0 0 0.5 {white}  8 0 0.5 {white}  0 8 0.5 {white}\n"
+    );
+    std::fs::write(folder.path().join("pane.tri"), file).expect("written");
+    for engine in ["fast", "model", "rtl"] {
+        let args =
+            ["raster", "pane.tri", "--engine", engine, "--adapt", "--set", "dither.bits=5", "--out", engine];
+        let output = edgewalk(folder.path(), &args);
+        assert!(output.status.success(), "{}", text(&output));
+        let (_, _, bytes) = crate::support::npy(&folder.path().join(engine).join("rgb.npy"));
+        let rgb: Vec<f64> =
+            bytes.chunks_exact(8).map(|b| f64::from_le_bytes(b.try_into().expect("8"))).collect();
+        // Beside the pane, whose texel is that of pixel (0, 0), white is white.
+        assert!(rgb.len() == 48 && rgb[3..].iter().all(|v| *v == 1.0), "{engine}: {rgb:?}");
+    }
+    let args = ["render", "pane.tri", "--adapt", "--set", "dither.bits=5", "--out", "judged"];
+    let output = edgewalk(folder.path(), &args);
+    assert!(output.status.success(), "{}", text(&output));
+}
+
 #[test]
 fn machines_that_clash_with_dither_are_refused() {
     let folder = tempfile::tempdir().expect("a folder");

@@ -173,3 +173,50 @@ fn depths_beyond_by_rounding_are_clamped_and_counted() {
     assert!(said.contains("far.tri:2: T vertex 1 z"), "{said}");
     assert!(!folder.path().join("refused").exists());
 }
+
+/// A polygon that the host cuts and a triangle beyond the guard band are one each: for `--triangles`, and by name.
+#[test]
+fn parts_of_one_count_as_one() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = |name: &str| folder.path().join(name);
+    let near = "T 2 2 0.5 1 0 0 0  30 2 0.5 1 0 0 0  2 30 0.5 1 0 0 0\n";
+    let first = [
+        ("polygon", "P 4  2 2 0.9 1 0 0 0  40 2 0.9 1 0 0 0  50 20 0.9 1 0 0 0  2 40 0.9 1 0 0 0\n"),
+        ("beyond", "T -300 -20 0.9 1 0 0 0  70 10 0.9 1 0 0 0  40 400 0.9 1 0 0 0\n"),
+    ];
+    for (name, item) in first {
+        let input = format!("{name}.tri");
+        std::fs::write(at(&input), format!("size {WIDTH} {HEIGHT}\n{item}{near}")).unwrap();
+        let explained = |count: &str| {
+            let words = ["explain", &input, "5", "5", "--json", "--triangles", count];
+            let output = edgewalk(folder.path(), &words).args(BAND).output().unwrap();
+            serde_json::from_slice::<Value>(&output.stdout).unwrap()
+        };
+        let (both, one) = (explained("2"), explained("1"));
+        assert_eq!(
+            [&both["id"], &both["stored"]["id"], &one["id"]].map(Value::as_i64),
+            [Some(1), Some(1), Some(0)]
+        );
+        let over: Vec<_> =
+            both["fragments"].as_array().unwrap().iter().map(|over| over["id"].clone()).collect();
+        assert_eq!(over, [0, 1], "{name}");
+        let shown = ["replay", &input, "--triangles", "1", "--out", "shown.json", "--cycles", "1", "--json"];
+        let output = edgewalk(folder.path(), &shown).args(BAND).output().unwrap();
+        let replay: Value = serde_json::from_slice(&output.stdout).unwrap();
+        assert_eq!(replay["triangles"], 1, "{replay}");
+        // All of the first are sent: as many tokens as of a file with nothing else.
+        std::fs::write(at("alone.tri"), format!("size {WIDTH} {HEIGHT}\n{item}")).unwrap();
+        let tokens = |words: &[&str], suite: &str| {
+            let words = [&["vectors", "--unit", "setup", "--no-csv", "-q", "--out", "v"], words].concat();
+            let output = edgewalk(folder.path(), &words).args(BAND).output().unwrap();
+            assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+            let manifest =
+                std::fs::read(at("v").join(format!("{suite}_setup")).join("manifest.json")).unwrap();
+            serde_json::from_slice::<Value>(&manifest).unwrap()["suite"]["triangles"].as_u64().unwrap()
+        };
+        let alone = tokens(&["alone.tri"], "alone");
+        assert!(alone > 1, "{name} is sent in parts");
+        assert_eq!(tokens(&[&input, "--triangles", "1"], name), alone, "{name}");
+        assert_eq!(tokens(&[&input, "--triangles", "2"], name), alone + 1, "{name}");
+    }
+}

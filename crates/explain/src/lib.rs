@@ -7,7 +7,7 @@
 //! let text = "size 16 12\nT 3 1.5 .25 1 0 0 0  13 4.75 .5 0 1 0 0  5.5 10 .5 0 0 1 0\n";
 //! let frame = triangle_file::parse("stdin", text.as_bytes())?;
 //! let machine = Machine { width: 16, height: 12, ..Machine::default() }.plan()?;
-//! let input = Input { machine: &machine, frame: &frame, scene: None, order: None, outlined: None };
+//! let input = Input { machine: &machine, frame: &frame, scene: None, order: None, outlined: None, places: &[] };
 //! let told = explain(&input, (6, 5))?.text(8);
 //! assert!(told.contains("additions to here: 6"));
 //! # Ok::<(), Box<dyn std::error::Error>>(())
@@ -125,7 +125,7 @@ struct Stored {
 /// A triangle over the pixel.
 #[derive(Serialize)]
 struct Over {
-    id: usize,
+    id: i32,
     z: f64,
     rgb: [f64; 3],
     /// Channels of the user's own, LSB.
@@ -144,6 +144,15 @@ pub struct Input<'a> {
     pub order: Option<&'a Order>,
     /// Of a triangle file the frame with its polygons as they are; the machine draws them as triangles.
     pub outlined: Option<&'a Frame>,
+    /// Of a triangle file the place among its triangles, polygons and lines of what each primitive is or is a part of.
+    pub places: &'a [i32],
+}
+
+impl Input<'_> {
+    /// The number by which a primitive of the frame is known: its place in the file, or its own.
+    fn place(&self, id: i32) -> i32 {
+        usize::try_from(id).ok().and_then(|id| self.places.get(id)).copied().unwrap_or(id)
+    }
 }
 
 /// Explains pixel (x, y), which lies on the machine's screen.
@@ -151,7 +160,7 @@ pub struct Input<'a> {
 /// # Errors
 /// What of the frame the machine cannot take.
 pub fn explain(input: &Input, (x, y): (u32, u32)) -> Result<Explanation> {
-    let Input { machine, frame, scene, order, outlined } = *input;
+    let Input { machine, frame, scene, order, outlined, .. } = *input;
     let drawing = golden_drawing(frame, machine);
     // Of the picture one line is enough, however large the screen is.
     let picture = drawing.lines(y..y + 1);
@@ -182,15 +191,18 @@ pub fn explain(input: &Input, (x, y): (u32, u32)) -> Result<Explanation> {
         (None, _) => (None, None),
     };
     let (stored, not_stored) = match stored(frame, machine, (x, y)) {
-        Ok(stored) => (Some(stored), None),
+        Ok(stored) => (Some(Stored { id: input.place(stored.id), ..stored }), None),
         Err(why) => (None, Some(format!("{why:#}"))),
     };
     Ok(Explanation {
         covered: covered(&drawing, machine),
         x,
         y,
-        fragments: over(frame, machine, (x, y)),
-        id,
+        fragments: over(frame, machine, (x, y))
+            .into_iter()
+            .map(|over| Over { id: input.place(over.id), ..over })
+            .collect(),
+        id: input.place(id),
         z: picture.z[at],
         rgb: picture.rgb[at],
         extra: own(machine, |channel| picture.extra[channel][at]),
@@ -204,7 +216,10 @@ pub fn explain(input: &Input, (x, y): (u32, u32)) -> Result<Explanation> {
             }
             _ => None,
         },
-        layers: layers(frame, machine, (x, y))?,
+        layers: layers(frame, machine, (x, y))?
+            .into_iter()
+            .map(|layer| Layer { id: input.place(layer.id), ..layer })
+            .collect(),
         shaded: match usize::try_from(id) {
             Ok(id) => parts
                 .iter()
@@ -284,7 +299,7 @@ fn state_of(frame: &Frame, id: usize) -> State {
 fn over(frame: &Frame, machine: &Plan, pixel: (u32, u32)) -> Vec<Over> {
     let mut list: Vec<Over> = Vec::new();
     let (screen, fill) = ((machine.width, machine.height), golden_fill(machine));
-    for (id, primitive) in frame.primitives().into_iter().enumerate() {
+    for (id, primitive) in (0..).zip(frame.primitives()) {
         // The textbook draws a pixel of the knee line twice.
         let mut add = |at, z, rgb, extra: &dyn Fn(usize) -> f64| {
             if at == pixel && list.last().is_none_or(|over| over.id != id) {

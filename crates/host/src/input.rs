@@ -115,6 +115,20 @@ impl Input {
         Ok(self.placed(machine)?.0)
     }
 
+    /// Like `frame`, of the first triangles, polygons and lines of the input, at most so many. A scene's triangles are counted as they
+    /// are drawn.
+    ///
+    /// # Errors
+    /// Those of `frame`.
+    pub fn first(&self, machine: &Plan, most: usize) -> Result<Frame> {
+        match &self.what {
+            What::Triangles(frame) => {
+                in_triangles(fitting(&self.name, Frame::clone(frame), machine)?.first(most), machine)
+            }
+            What::Scene(..) => Ok(self.frame(machine)?.first(most)),
+        }
+    }
+
     /// Like `frame`, with the place in the input of what each of its primitives is or is a part of: of a scene the face of the mesh.
     /// It is the same on any machine.
     ///
@@ -198,7 +212,10 @@ pub fn in_triangles(frame: Frame, machine: &Plan) -> Result<Frame> {
 }
 
 /// Like `in_triangles`, with the place of what each primitive is or is a part of among those of the frame that was given.
-fn placed(frame: Frame, machine: &Plan) -> Result<(Frame, Vec<i32>)> {
+///
+/// # Errors
+/// Those of `in_triangles`.
+pub fn placed(frame: Frame, machine: &Plan) -> Result<(Frame, Vec<i32>)> {
     if is_for_poly(&frame, machine) {
         let mut host = frame.host;
         let pieces = pieces(&frame, machine, &mut host)?;

@@ -240,7 +240,7 @@ fn sent(shadow: &Shadow, machine: &Plan, second: &Plan) -> Result<Sent> {
         light_pass: own,
         // A map that the machine draws has a page of colours only as the plane of k.
         color_write: !transmits && !own,
-        clear: frame.clear.map(|share| (share * machine.stored_color().max() as f64) as u64),
+        clear: frame.clear.map(|share| (share * second.stored_color().max() as f64) as u64),
         ..DrawState::default()
     };
     let panes = DrawState { depth_write: false, color_write: true, ..hides };

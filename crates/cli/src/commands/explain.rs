@@ -8,7 +8,7 @@ use crate::number::whole;
 use crate::verdict::Verdict;
 use anyhow::{Result, anyhow};
 use edgewalk_explain::{Input, explain};
-use edgewalk_host::input::in_triangles;
+use edgewalk_host::input::placed;
 
 /// Explain a pixel: the triangles over it, the parts of its light, and every addition of the machine behind it.
 ///
@@ -38,15 +38,22 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
     let machine = args.source.machine(machine)?;
     // A file is opened once: it may be a pipe.
     let scene = if args.source.is_triangle_file() { None } else { Some(args.source.surface(&machine)?) };
-    let outlined = if scene.is_none() { Some(args.source.outlined(&machine)?) } else { None };
-    let (frame, order) = match (&scene, &outlined) {
-        (Some((scene, surface)), _) => args.source.frame_of(scene, surface, &machine)?,
-        (None, Some(outlined)) => (in_triangles(outlined.clone(), &machine)?, None),
-        (None, None) => (args.source.frame(&machine)?, None),
-    };
     let first = args.triangles.map_or(usize::MAX, |most| usize::try_from(most).unwrap_or(usize::MAX));
-    let whole = first >= frame.drawn();
-    let frame = frame.first(first);
+    let outlined = match scene {
+        None => Some(args.source.outlined(&machine)?.first(first)),
+        Some(_) => None,
+    };
+    let (frame, order, places) = match (&scene, &outlined) {
+        (Some((scene, surface)), _) => {
+            let (frame, order) = args.source.frame_of(scene, surface, &machine)?;
+            (frame.first(first), order, Vec::new())
+        }
+        (None, Some(outlined)) => {
+            let (frame, places) = placed(outlined.clone(), &machine)?;
+            (frame, None, places)
+        }
+        (None, None) => (args.source.frame(&machine)?, None, Vec::new()),
+    };
     let (x, y) = (args.x, args.y);
     if x >= machine.width || y >= machine.height {
         let (w, h) = (machine.width - 1, machine.height - 1);
@@ -57,8 +64,8 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
         frame: &frame,
         scene: scene.as_ref().map(|(scene, surface)| (scene, surface)),
         order: order.as_ref(),
-        // Of a part the polygons are those that the frame has.
-        outlined: outlined.as_ref().filter(|_| whole),
+        outlined: outlined.as_ref(),
+        places: &places,
     };
     let explanation = explain(&input, (x, y))?;
     talk.say(|| document("explain", &explanation), || explanation.text(machine.color.bits))?;

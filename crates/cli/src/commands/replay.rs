@@ -11,7 +11,7 @@ use crate::shell::quoted;
 use crate::verdict::Verdict;
 use anyhow::{Context, Result, anyhow};
 use edgewalk_files::Staging;
-use edgewalk_host::input::counted;
+use edgewalk_host::input::{counted, in_triangles};
 use edgewalk_machine::counted::number;
 use edgewalk_machine::{Counted, Plan, PortVertex};
 use edgewalk_model::{DrawState, Stalls, Waits};
@@ -135,10 +135,12 @@ struct Shown {
 
 /// The input on the machine.
 fn drawn(args: &Args, asked_for: &MachineArgs) -> Result<Shown> {
-    let (machine, frame) = args.source.on_its_screen(asked_for)?;
-    let of = counted(&frame);
-    let frame = frame.first(usize::try_from(args.triangles).unwrap_or(usize::MAX));
-    let drawn = counted(&frame);
+    let machine = args.source.machine(asked_for)?;
+    let whole = args.source.whole(&machine)?;
+    let of = counted(&whole);
+    let part = whole.first(usize::try_from(args.triangles).unwrap_or(usize::MAX));
+    let drawn = counted(&part);
+    let frame = in_triangles(part, &machine)?;
     let port = to_port(&frame, &machine)?;
     let (count, size) = (port.triangles.len() as u64, (machine.width, machine.height));
     Verdict::drew(count).or_nothing(&args.source.input, 0, size)?;

@@ -86,7 +86,7 @@ enum Wave {
 /// Runs the command.
 pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
     let machine = args.source.machine(machine)?;
-    let frame = args.source.frame(&machine)?.first(usize::try_from(args.triangles).unwrap_or(usize::MAX));
+    let frame = args.source.first(&machine, usize::try_from(args.triangles).unwrap_or(usize::MAX))?;
     let port = to_port(&frame, &machine)?;
     let size = (machine.width, machine.height);
     Verdict::drew(port.triangles.len() as u64).or_nothing(&args.source.input, 0, size)?;

@@ -95,8 +95,9 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
     let (machine, input) = match &args.input {
         Some(input) => {
             let source = Source::new(input, args.adapt);
-            let (machine, frame) = source.on_its_screen(machine)?;
-            let suite = of_input(input, &machine, &to_port(&frame, &machine)?, args.triangles)?;
+            let machine = source.machine(machine)?;
+            let port = to_port(&source.whole(&machine)?, &machine)?;
+            let suite = of_input(input, &machine, &port, args.triangles)?;
             (machine, Some(Suite { seed: args.seed, ..suite }))
         }
         None => (machine.machine(None)?, None),

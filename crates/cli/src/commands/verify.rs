@@ -112,7 +112,7 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
     let machine = args.source.machine(machine)?;
     // Whatever is wrong with the design is said first.
     let wiring = args.dut.as_deref().map(|file| crate::own::design(file, &machine)).transpose()?;
-    let frame = args.source.frame(&machine)?;
+    let frame = args.source.whole(&machine)?;
     let port = to_port(&frame, &machine)?;
     let input = Suite {
         name: "input".to_owned(),

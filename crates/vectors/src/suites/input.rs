@@ -10,6 +10,8 @@ use std::path::Path;
 pub struct Sent<'a> {
     /// Triangles, polygons and lines in drawing order, as tokens.
     pub triangles: &'a [Triangle],
+    /// Of each whole of these tokens the place in the input of what it is or is a part of.
+    pub ids: &'a [i32],
     /// The rules that all of them are drawn by.
     pub state: DrawState,
     /// Words of the light's map, if there is one.
@@ -50,8 +52,11 @@ impl Suite {
         let name: String =
             name.chars().map(|c| if c.is_alphanumeric() || "-_".contains(c) { c } else { '_' }).collect();
         let wanted = wanted.map_or(usize::MAX, |n| usize::try_from(n).unwrap_or(usize::MAX));
-        let every = wholes(sent.triangles).count().div_ceil(wanted).max(1);
-        let triangles: Vec<Triangle> = wholes(sent.triangles).step_by(every).flatten().copied().collect();
+        let parts: Vec<(i32, &[Triangle])> = sent.ids.iter().copied().zip(wholes(sent.triangles)).collect();
+        let drawn: Vec<_> = parts.chunk_by(|(one, _), (next, _)| one == next).collect();
+        let every = drawn.len().div_ceil(wanted).max(1);
+        let taken = drawn.into_iter().step_by(every).flatten();
+        let triangles: Vec<Triangle> = taken.flat_map(|(_, tokens)| *tokens).copied().collect();
         Ok(Suite {
             state: sent.state,
             words: words(machine, sent, every)?,

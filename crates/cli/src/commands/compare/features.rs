@@ -219,7 +219,7 @@ fn energy(cells: &CellEnergy, triangles: u32, column: &Column, asked: &Asked) ->
     if column.shadows {
         return Ok(json!({ "reason": format!(":{SHADOWS} draws in passes; energy is that of one") }));
     }
-    let port = to_port(&asked.input.frame(&asked.plan)?.first(triangles as usize), &asked.plan)?;
+    let port = to_port(&asked.input.first(&asked.plan, triangles as usize)?, &asked.plan)?;
     let drawing = Drawing { machine: &asked.plan, port: &port, cycles: CYCLES };
     Ok(serde_json::to_value(cells.measure(&drawing, None, &|| ())?)?)
 }
