@@ -39,20 +39,16 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
     // A file is opened once: it may be a pipe.
     let scene = if args.source.is_triangle_file() { None } else { Some(args.source.surface(&machine)?) };
     let first = args.triangles.map_or(usize::MAX, |most| usize::try_from(most).unwrap_or(usize::MAX));
-    let outlined = match scene {
-        None => Some(args.source.outlined(&machine)?.first(first)),
-        Some(_) => None,
-    };
-    let (frame, order, places) = match (&scene, &outlined) {
-        (Some((scene, surface)), _) => {
+    let (frame, order, places, outlined) = match &scene {
+        Some((scene, surface)) => {
             let (frame, order) = args.source.frame_of(scene, surface, &machine)?;
-            (frame.first(first), order, Vec::new())
+            (frame.first(first), order, Vec::new(), None)
         }
-        (None, Some(outlined)) => {
+        None => {
+            let outlined = args.source.outlined(&machine)?.first(first);
             let (frame, places) = placed(outlined.clone(), &machine)?;
-            (frame, None, places)
+            (frame, None, places, Some(outlined))
         }
-        (None, None) => (args.source.frame(&machine)?, None, Vec::new()),
     };
     let (x, y) = (args.x, args.y);
     if x >= machine.width || y >= machine.height {
