@@ -2,6 +2,7 @@
 #![allow(clippy::unwrap_used)] // a test that unwraps nothing reports it
 
 mod refusals;
+mod machines;
 mod require;
 mod search;
 mod resume;

@@ -10,7 +10,7 @@ mod pictures;
 mod why;
 
 use crate::commands::estimate::device;
-use crate::cost::{SynthArgs, Synthesiser, ToolArgs};
+use crate::cost::{SynthArgs, Synthesiser, ToolArgs, has_unit};
 use crate::estimator::Estimator;
 use crate::machine_args::MachineArgs;
 use crate::number::{real, whole};
@@ -234,11 +234,10 @@ impl What {
     }
 
     fn definition(&self, machine: &MachineArgs, chunks: Option<u32>) -> Result<Definition> {
-        let base: Plan = machine.machine(None)?;
         Ok(Definition {
             inputs: self.inputs.clone(),
             shading: self.shading.clone(),
-            machine: base.to_toml(),
+            machine: machine.keys()?.every_key_to_toml(),
             vary: self.vary.clone(),
             stalls: self.stalls.clone(),
             judge: self.judge.clone(),
@@ -255,7 +254,7 @@ impl What {
                 .collect::<Result<_>>()?,
             estimate: self.estimate,
             objectives: self.objective.clone(),
-            synth: self.synth.definition(&base)?,
+            synth: self.synth.asked()?,
             chunks,
             ..Definition::default()
         })
@@ -356,10 +355,17 @@ fn kept(out: &Path) -> Result<Sweep> {
     opened(definition).with_context(named)
 }
 
-/// The sweep with its inputs, which are read here.
+/// The sweep with its inputs, which are read here. A unit that is synthesised is one of a machine of the sweep.
 fn opened(definition: Definition) -> Result<Sweep> {
     let _reading = progress::reading();
-    Sweep::new(definition)
+    let sweep = Sweep::new(definition)?;
+    let unit = sweep.definition.synth.as_ref().map_or("machine", |of| &of.unit);
+    let plans = || sweep.points.iter().filter_map(|point| point.plan.as_ref().ok());
+    match plans().next() {
+        Some(first) if !plans().any(|plan| has_unit(unit, plan).is_ok()) => has_unit(unit, first)?,
+        _ => {}
+    }
+    Ok(sweep)
 }
 
 /// Writes and tells what follows from the rows, of which this run made so many.

@@ -77,7 +77,7 @@ impl Sweep {
         let over_memories = OverMemories::parse(&definition.judge, &memories)?;
         check_bound(definition.bound)?;
         check_seeds(definition.synth.as_ref())?;
-        let base = Machine::from_toml(&definition.machine).map_err(|e| anyhow!("{e}"))?;
+        let base = Machine::read(&definition.machine).map_err(|e| anyhow!("{e}"))?;
         let shadings = shadings(&definition, &base, &axes)?;
         let synth = definition.synth.is_some();
         let objectives = Objective::list(&definition.objectives, synth, shadings.len() > 1)?;
