@@ -190,6 +190,7 @@ impl Sweep {
     #[must_use]
     pub fn asks_equation(&self) -> bool {
         self.objectives.iter().any(Objective::is_of_equation)
+            || self.requirements.iter().any(Requirement::is_of_equation)
     }
 
     /// Whether rows tell the estimate of their machines.

@@ -8,6 +8,7 @@
 use super::definition::Sample;
 use super::front::fronts;
 use super::grid::{Round, Sweep};
+use super::require::Requirement;
 use super::row::Status;
 use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64Mcg;
@@ -194,7 +195,7 @@ fn costs_of(sweep: &Sweep, machine: usize, reach: usize, rows: &BTreeMap<String,
     let own = (0..sweep.memories.len())
         .map(|memory| (0..reach).map(|input| row(memory, input)).collect::<Option<Vec<_>>>())
         .collect::<Option<Vec<_>>>()?;
-    if sweep.requirements.iter().any(|requirement| requirement.rules_out(&sweep.judge, &own)) {
+    if Requirement::first_broken(&sweep.requirements, &sweep.judge, &own).is_some() {
         return None;
     }
     let value = |objective: &super::Objective| Some(objective.cost(sweep.judge.value(objective, &own)?));
