@@ -263,9 +263,8 @@ impl What {
 
 /// Runs what is missing, then writes what follows from all rows.
 fn swept(sweep: &Sweep, out: &Path, again: &[Status], tools: &ToolArgs, talk: Talk) -> Result<Verdict> {
-    keep(sweep, out)?;
     let path = out.join(ROWS);
-    let (store, rows) = Store::open(&path)?;
+    let (store, rows) = begun(sweep, out)?;
     let all = sweep.points.iter().collect::<Vec<_>>();
     let made = points(sweep, &all, (&store, store::by_key(rows)), again, tools, talk)
         .with_context(|| path.display().to_string())?;
@@ -281,9 +280,8 @@ fn searched(
     tools: &ToolArgs,
     talk: Talk,
 ) -> Result<Verdict> {
-    keep(&sweep, out)?;
     let path = out.join(ROWS);
-    let (store, rows) = Store::open(&path)?;
+    let (store, rows) = begun(&sweep, out)?;
     let (mut rows, mut made) = (store::by_key(rows), 0);
     while let Some(places) = hunt.next(&mut sweep, &rows) {
         let of: Vec<&Point> = places.iter().map(|place| &sweep.points[*place]).collect();
@@ -322,11 +320,15 @@ fn points(
     Ok(todo.len())
 }
 
-/// Writes what the sweep is, before anything runs.
-fn keep(sweep: &Sweep, out: &Path) -> Result<()> {
+/// Opens the rows, and then writes what the sweep is, before anything runs. The lock on the rows comes first: a sweep that
+/// runs in the folder keeps its definition.
+fn begun(sweep: &Sweep, out: &Path) -> Result<(Store, Vec<Value>)> {
+    std::fs::create_dir_all(out).with_context(|| format!("--out {}", out.display()))?;
+    let opened = Store::open(&out.join(ROWS))?;
     let staging = Staging::new(out)?;
     staging.write(DEFINITION, serde_json::to_string_pretty(&sweep.definition)? + "\n")?;
-    staging.publish(&[DEFINITION])
+    staging.publish(&[DEFINITION])?;
+    Ok(opened)
 }
 
 /// The sweep that a folder holds.
