@@ -91,3 +91,54 @@ fn machine_that_cannot_be_built_is_varied_into_those_that_can() {
     assert!(code == Some(2) && error.contains("unknown key setup.lane"), "{error}");
     assert!(!at.join("n").exists());
 }
+
+/// Keys of a shadow and of a shading that only some of the machines have.
+const VARY: [&str; 8] = [
+    "--vary",
+    "shadow.size=1..100",
+    "--vary",
+    "blend.kind=none,interpolated",
+    "--vary",
+    "blend.kt_bits=4..8",
+    "--vary",
+    "interpolator.adders=1,2",
+];
+
+#[test]
+fn machines_alike_in_all_that_means_something_count_once() {
+    let folder = inputs();
+    let at = folder.path();
+    // Two without BLEND, and ten with it.
+    let whole = told(at, &[&["a.tri", "--out", "whole"], &VARY[..]].concat());
+    assert_eq!((&whole["points"], &whole["machines"]), (&12.into(), &12.into()));
+    let text = edgewalk(at, &[&["sweep", "a.tri", "--out", "whole"], &VARY[..]].concat()).output().unwrap();
+    assert!(!String::from_utf8(text.stdout).unwrap().contains("null"));
+    assert_eq!(whole["extent"]["machines_of_space"], 12);
+    let mut once = keys(&at.join("whole"));
+    once.dedup();
+    assert_eq!(once.len(), 12);
+    for (count, made) in [("6", 6), ("11", 11), ("12", 12), ("100", 12)] {
+        let sample = told(at, &[&["a.tri", "--sample", count, "--out", count], &VARY[..]].concat());
+        let mut own = keys(&at.join(count));
+        own.dedup();
+        assert_eq!((own.len(), &sample["machines"], &sample["made"]), (made, &made.into(), &made.into()));
+        assert!(own.iter().all(|key| once.contains(key)));
+        assert_eq!(told(at, &[&["a.tri", "--sample", count, "--out", count], &VARY[..]].concat())["made"], 0);
+    }
+    let (code, error) = run(at, &[&["sweep", "a.tri", "--search", "32", "--out", "few"], &VARY[..]].concat());
+    assert!(code == Some(2) && error.contains("there are 12 machines; leave --search out"), "{error}");
+}
+
+/// More combinations than are listed, of 12 machines.
+#[test]
+fn search_ends_where_no_other_machine_is_found() {
+    let folder = inputs();
+    let at = folder.path();
+    let wide = ["--vary", "shadow.depth_bits=4..24", "--vary", "shadow.light_bits=4..28"];
+    let words = [&["a.tri", "--search", "32", "--out", "s"], &VARY[..], &wide].concat();
+    let report = told(at, &words);
+    assert_eq!((&report["machines"], &report["made"]), (&12.into(), &12.into()));
+    assert_eq!(told(at, &words)["made"], 0);
+    let sample = told(at, &[&["a.tri", "--sample", "32", "--out", "t"], &VARY[..], &wide].concat());
+    assert_eq!((&sample["machines"], keys(&at.join("t"))), (&12.into(), keys(&at.join("s"))));
+}

@@ -239,13 +239,11 @@ impl<'o> Outcome<'o> {
         );
         for candidate in front.iter().take(SHOWN) {
             let row = candidate.row();
-            let keys = self.table.sweep.axes.iter().map(|axis| {
-                let value = &row["keys"][axis.key.name];
-                format!(
-                    "{}={}",
-                    axis.key.name,
-                    value.as_str().map_or_else(|| value.to_string(), str::to_owned)
-                )
+            // A key of a unit that the machine has not is not told.
+            let keys = self.table.sweep.axes.iter().filter_map(|axis| {
+                let value = row["keys"].get(axis.key.name)?;
+                let shown = value.as_str().map_or_else(|| value.to_string(), str::to_owned);
+                Some(format!("{}={shown}", axis.key.name))
             });
             let values = candidate.values.iter().flatten().map(|value| number(*value));
             _ = writeln!(
