@@ -62,16 +62,17 @@ impl<'o> Outcome<'o> {
                     Some(_) => format!("{} looked at, not of all,", self.table.machines.len()),
                     None => self.table.machines.len().to_string(),
                 };
-                let text = format!(
-                    "# machine {}, best of {of} for {}: {} ({}{})\n{}",
+                let about = format!(
+                    "machine {}, best of {of} for {}: {} ({}{})",
                     machine.hash(),
                     objective.name,
                     self.table.value(objective, candidate),
                     objective.doc,
-                    together(self.table.sweep),
-                    machine.to_toml()
+                    together(self.table.sweep)
                 );
-                staging.write(&best_file(objective.name), text)?;
+                // A name of an input may hold a line break, and a comment may not.
+                let about = about.replace(char::is_control, " ");
+                staging.write(&best_file(objective.name), format!("# {about}\n{}", machine.to_toml()))?;
             }
         }
         let bests = OBJECTIVES.iter().map(|objective| best_file(objective.name));
