@@ -265,5 +265,5 @@ def sweep(
     """Draws inputs on many machines, as `edgewalk sweep` does without synthesis.
 
     `inputs` are names of scenes and paths of files. `vary` has the values of each varied key: an iterable, or a text as
-    "6..14". `weights` has factors of inputs in the sum of cycles and bytes. `bound` is in LSB. `store` is a file of rows: new ones are appended, and those in it are not drawn again.
+    "6..14". `weights` has factors of inputs in the sum of cycles and bytes, at most 1e9. `bound` is in LSB. `store` is a file of rows: new ones are appended, and those in it are not drawn again.
     """

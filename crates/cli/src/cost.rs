@@ -54,19 +54,32 @@ impl ToolArgs {
 }
 
 impl SynthArgs {
-    /// What is asked for, once it is known that there is such a device and unit.
-    pub fn definition(&self, machine: &Plan) -> Result<Option<Synthesis>> {
+    /// What is asked for, once it is known that there is such a device.
+    pub fn asked(&self) -> Result<Option<Synthesis>> {
         let Some(name) = &self.synth else { return Ok(None) };
         Target::named(name).map_err(|e| anyhow!("--synth: {e}"))?;
-        Part::named(&self.synth_unit, machine)
-            .map_err(|e| anyhow!("--synth-unit {}: {e}", self.synth_unit))?;
         Ok(Some(Synthesis { target: name.clone(), unit: self.synth_unit.clone(), seeds: self.synth_seeds }))
+    }
+
+    /// What is asked for, once it is known that there is such a device, and that this machine has the unit.
+    pub fn definition(&self, machine: &Plan) -> Result<Option<Synthesis>> {
+        let asked = self.asked()?;
+        asked.iter().try_for_each(|of| has_unit(&of.unit, machine))?;
+        Ok(asked)
     }
 
     /// How the tools run.
     pub fn tools(&self) -> &ToolArgs {
         &self.tools
     }
+}
+
+/// Whether the machine has the unit of --synth-unit.
+///
+/// # Errors
+/// It has not, or there is no such unit.
+pub fn has_unit(unit: &str, machine: &Plan) -> Result<()> {
+    Part::named(unit, machine).map(|_| ()).map_err(|e| anyhow!("--synth-unit {unit}: {e}"))
 }
 
 /// Synthesises machines, each once.

@@ -4,7 +4,7 @@ use anyhow::{Context, Result, anyhow, ensure};
 use edgewalk_host::needs::Need;
 use edgewalk_machine::keys::KEYS;
 use edgewalk_machine::presets::PRESETS;
-use edgewalk_machine::{Machine, Plan, Unknown};
+use edgewalk_machine::{Machine, MachineError, Plan, Unknown};
 use std::fmt;
 use std::fs::File;
 use std::io::Read as _;
@@ -59,7 +59,7 @@ impl MachineArgs {
         let machine = words.next().unwrap_or_default();
         let own = words.map(|setting| Setting { option: "", setting });
         let settings: Vec<Setting> = own.chain(self.settings()).collect();
-        load(machine)
+        load(machine, Machine::from_toml)
             .and_then(|machine| adapted(&machine, size, needs, &settings))
             .with_context(|| text.to_owned())
     }
@@ -79,8 +79,19 @@ impl MachineArgs {
     /// # Errors
     /// --set says of one of these keys what the input cannot be drawn with.
     pub fn adapted(&self, size: Option<(u32, u32)>, needs: impl Needs) -> Result<Plan> {
-        let machine = load(&self.machine).with_context(|| format!("--machine {}", self.machine))?;
+        let machine =
+            load(&self.machine, Machine::from_toml).with_context(|| format!("--machine {}", self.machine))?;
         adapted(&machine, size, needs, &self.settings().collect::<Vec<_>>())
+    }
+
+    /// The keys asked for, which need not make a machine that can be built: a sweep sets others on top.
+    ///
+    /// # Errors
+    /// No such file or preset, an unknown key, a value outside its domain.
+    pub fn keys(&self) -> Result<Machine> {
+        let machine =
+            load(&self.machine, Machine::read).with_context(|| format!("--machine {}", self.machine))?;
+        set(machine, None, &[], &self.settings().collect::<Vec<_>>())
     }
 
     fn settings(&self) -> impl Iterator<Item = Setting<'_>> {
@@ -140,12 +151,18 @@ fn adapted(
 }
 
 /// The machine of a preset or file, with the screen of the input, what the input asks for, and then the settings.
-fn built(
+fn built(machine: Machine, size: Option<(u32, u32)>, needs: &[Need], settings: &[Setting]) -> Result<Plan> {
+    let machine = set(machine, size, needs, settings)?;
+    machine.plan().map_err(|e| anyhow!("{}: {e}", asked_for(size, needs, settings)))
+}
+
+/// The same machine's keys, whether it can be built or not.
+fn set(
     mut machine: Machine,
     size: Option<(u32, u32)>,
     needs: &[Need],
     settings: &[Setting],
-) -> Result<Plan> {
+) -> Result<Machine> {
     if let Some((width, height)) = size {
         machine.set("screen.width", &width.to_string()).map_err(|e| anyhow!("size: {e}"))?;
         machine.set("screen.height", &height.to_string()).map_err(|e| anyhow!("size: {e}"))?;
@@ -166,7 +183,7 @@ fn built(
         let named = if setting.option.is_empty() { String::new() } else { format!("{setting}: ") };
         machine.set(key, value).map_err(|e| anyhow!("{named}{e}"))?;
     }
-    machine.plan().map_err(|e| anyhow!("{}: {e}", asked_for(size, needs, settings)))
+    Ok(machine)
 }
 
 /// All that makes the machine another than the one of the file or preset, which has been checked.
@@ -177,8 +194,8 @@ fn asked_for(size: Option<(u32, u32)>, needs: &[Need], settings: &[Setting]) -> 
     size.into_iter().chain(needs).chain(settings).collect::<Vec<_>>().join(", ")
 }
 
-/// The machine of a preset or file of that name.
-fn load(name: &str) -> Result<Machine> {
+/// The machine of a preset or file of that name; `read` takes the text of the file.
+fn load(name: &str, read: fn(&str) -> Result<Machine, MachineError>) -> Result<Machine> {
     if let Some(machine) = Machine::preset(name) {
         return Ok(machine);
     }
@@ -190,5 +207,5 @@ fn load(name: &str) -> Result<Machine> {
     let mut text = String::new();
     File::open(path)?.take(MAX_LENGTH + 1).read_to_string(&mut text)?;
     ensure!(text.len() as u64 <= MAX_LENGTH, "permitted: at most {MAX_LENGTH} bytes");
-    Ok(Machine::from_toml(&text)?)
+    Ok(read(&text)?)
 }

@@ -2,6 +2,7 @@
 #![allow(clippy::unwrap_used)] // a test that unwraps nothing reports it
 
 mod refusals;
+mod machines;
 mod require;
 mod search;
 mod resume;
@@ -372,6 +373,39 @@ fn points_without_the_bound_are_not_simulated() {
         }
     }
     assert!(kept >= 5 && pruned >= 2 && kept + pruned == 11, "{kept} {pruned}");
+}
+
+/// The bound is that of a row: with the step of DITHER, and missing where passes or shading leave none.
+#[test]
+fn points_are_skipped_by_the_bounds_that_their_rows_would_have() {
+    let folder = tempfile::tempdir().unwrap();
+    for (name, text) in [("passes.tri", PASSES), ("normals.tri", NORMALS)] {
+        std::fs::write(folder.path().join(name), text).unwrap();
+    }
+    let screen = ["--set", "screen.width=64", "--set", "screen.height=48"];
+    let (mut kept, mut pruned) = (0, 0);
+    for (out, words, limit) in [
+        ("a", [&["sphere", "--vary", "dither.bits=0,5,7"], &screen[..]].concat(), "5"),
+        ("b", vec!["passes.tri", "--set", "blend.kind=constant", "--vary", "setup.lanes=1,4"], "5"),
+        ("c", vec!["normals.tri", "--vary", "shade.kind=fast-phong"], "5"),
+    ] {
+        let sweep = |out: &str, more: &[&str]| {
+            let words = [&["sweep", "--quiet", "--out", out][..], &words, more].concat();
+            assert_eq!(run(folder.path(), &words), (Some(0), String::new()));
+            rows(&folder.path().join(out))
+        };
+        let (all, some) = (sweep(out, &[]), sweep(&format!("{out}{out}"), &["--bound", limit]));
+        assert_eq!(all.len(), some.len());
+        for row in &all {
+            let bounds = ["z", "color"]
+                .map(|channel| row["report"]["comparison"][format!("{channel}_bound_for_input")].as_f64());
+            let wanted = bounds.iter().all(|bound| bound.is_some_and(|bound| bound <= 5.0));
+            let other = some.iter().find(|other| other["machine"] == row["machine"]).unwrap();
+            assert_eq!(other["status"], if wanted { "ok" } else { "pruned" }, "{bounds:?}: {other}");
+            (kept, pruned) = (kept + u32::from(wanted), pruned + u32::from(!wanted));
+        }
+    }
+    assert_eq!((kept, pruned), (2, 4));
 }
 
 #[test]

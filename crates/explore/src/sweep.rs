@@ -43,6 +43,7 @@ pub mod objective;
 pub mod judge;
 pub mod require;
 pub mod point;
+pub mod space;
 pub mod grid;
 pub mod equation;
 pub mod shared;

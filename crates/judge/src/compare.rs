@@ -95,6 +95,22 @@ pub fn compare_shaded(
     }
 }
 
+/// The bounds of depth and of colour that [`Comparison`] will have for the triangles of `frame`, LSB; none where none is proved.
+#[must_use]
+pub fn bounds_for_input(machine: &Plan, frame: &Frame, reach: &Reach) -> [Option<f64>; 2] {
+    let Tally { z, color, .. } = Tally::new(machine, frame);
+    let lit = frame.passes().iter().any(|pass| frame.shadow(pass.state.light).is_some());
+    for_input(machine, reach, [z.found().beside, color.found().beside], lit || frame.shading.is_some())
+}
+
+/// Bounds of depth and of colour with what is allowed beside additions. `elsewhere`: colours have no bound that all pixels share.
+/// Under a light the gate's part comes on top of it, and what is shaded has its own.
+fn for_input(machine: &Plan, reach: &Reach, beside: [f64; 2], elsewhere: bool) -> [Option<f64>; 2] {
+    let [z, color] =
+        [0, 1].map(|place| Some(reach.bound(machine, &machine.channels()[place])? + beside[place]));
+    [z, color.filter(|_| !elsewhere)]
+}
+
 fn compared(
     machine: &Plan,
     frame: &Frame,
@@ -303,14 +319,11 @@ impl Comparison {
 
     /// With what is proved for these triangles: there are no more additions behind any of their pixels.
     fn reaching(mut self, machine: &Plan, reach: &Reach) -> Self {
-        let channels = machine.channels();
         self.errors.additions = Some(reach.steps.total());
-        let DepthAndColor { z, color, .. } = &self.errors;
-        let depth = reach.bound(machine, &channels[0]).map(|bound| bound + z.beside);
-        // Under a light the gate's part comes on top of it; what is shaded has its own.
-        let color = reach.bound(machine, &channels[1]).map(|bound| bound + color.beside);
-        self.errors.z.bound_for_input = depth;
-        self.errors.color.bound_for_input = color.filter(|_| self.lit.is_none() && self.shaded.is_none());
+        let beside = [self.errors.z.beside, self.errors.color.beside];
+        let elsewhere = self.lit.is_some() || self.shaded.is_some();
+        [self.errors.z.bound_for_input, self.errors.color.bound_for_input] =
+            for_input(machine, reach, beside, elsewhere);
         for (own, channel) in self.extra.iter_mut().zip(extra::channels(machine)) {
             own.bound_for_input = reach.bound(machine, channel);
             own.allowed = own.bound_for_input.unwrap_or(own.allowed);

@@ -30,6 +30,16 @@ impl Machine {
     /// Text that is no TOML, an unknown or repeated key, a value outside its domain, a combination that
     /// cannot be built.
     pub fn from_toml(text: &str) -> Result<Machine, MachineError> {
+        let machine = Machine::read(text)?;
+        machine.plan()?;
+        Ok(machine)
+    }
+
+    /// Reads a machine file as [`Machine::from_toml`] does. The combination is not checked yet.
+    ///
+    /// # Errors
+    /// Text that is no TOML, an unknown or repeated key, a value outside its domain.
+    pub fn read(text: &str) -> Result<Machine, MachineError> {
         let table = DeTable::parse(text).map_err(|e| {
             let offset = e.span().map_or(0, |s| s.start);
             let what = e.message().replace('\n', " ");
@@ -72,16 +82,26 @@ impl Machine {
                 machine.set(&full, &shown).map_err(|e| e.at(text, name.span().start))?;
             }
         }
-        machine.plan()?;
         Ok(machine)
     }
 
     /// The whole machine as a file, every key with its meaning; [`Machine::from_toml`] reads it back.
     #[must_use]
     pub fn to_toml(&self) -> String {
+        self.written(|key| (key.used)(self))
+    }
+
+    /// Every key as a file, with those of units that the machine has not. [`Machine::read`] reads it back. A
+    /// unit that is set later then has the keys that were set for it.
+    #[must_use]
+    pub fn every_key_to_toml(&self) -> String {
+        self.written(|_| true)
+    }
+
+    fn written(&self, wanted: impl Fn(&Key) -> bool) -> String {
         let mut text = String::new();
         let mut sections: Vec<&str> = Vec::new();
-        for key in KEYS.iter().filter(|key| (key.used)(self)) {
+        for key in KEYS.iter().filter(|key| wanted(key)) {
             let section = key.name.split('.').next().unwrap_or_default();
             if !sections.contains(&section) {
                 sections.push(section);
@@ -89,7 +109,7 @@ impl Machine {
         }
         for section in sections {
             let _ = writeln!(text, "[{section}]");
-            for key in KEYS.iter().filter(|k| k.name.split('.').next() == Some(section) && (k.used)(self)) {
+            for key in KEYS.iter().filter(|k| k.name.split('.').next() == Some(section) && wanted(k)) {
                 let name = key.name.split('.').nth(1).unwrap_or_default();
                 let value = match key.domain {
                     Domain::Word(_) => format!("\"{}\"", key.show(self)),
@@ -216,6 +236,28 @@ mod tests {
         assert_eq!(machine.hash(), shaded, "there are no roots");
         machine.set("memory.table_latency", "3").expect("a key");
         assert!(machine.hash() != shaded && shaded != "4f0c71f00838");
+    }
+
+    /// A sweep counts machines that differ in such keys alone as one.
+    #[test]
+    fn keys_without_meaning_leave_the_hash_and_are_kept_in_the_file_of_every_key() {
+        let mut checked = 0;
+        for machine in machines().into_iter().chain([Machine::default()]) {
+            for key in KEYS.iter().filter(|key| !(key.used)(&machine)) {
+                let values = match key.domain {
+                    Domain::Range(low, high) => vec![low, high],
+                    Domain::OneOf(list) => list.to_vec(),
+                    Domain::Word(words) => (0..words.len() as u32).collect(),
+                };
+                for value in values {
+                    let other = machine.with(|machine| (key.set)(machine, value));
+                    assert_eq!(other.hash(), machine.hash(), "{} = {value}", key.name);
+                    assert_eq!(Machine::read(&other.every_key_to_toml()), Ok(other), "{}", key.name);
+                    checked += 1;
+                }
+            }
+        }
+        assert!(checked > 100, "{checked}");
     }
 
     #[test]

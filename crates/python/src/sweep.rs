@@ -131,7 +131,7 @@ pub fn sweep(
     let definition = Definition {
         inputs: names(inputs)?,
         shading,
-        machine: on_screen(machine, None)?.to_toml(),
+        machine: on_screen(machine, None)?.every_key_to_toml(),
         vary: vary.iter().map(|(key, values)| varied(&key, &values)).collect::<PyResult<_>>()?,
         stalls,
         judge: judge.to_owned(),

@@ -64,6 +64,13 @@ def test_values_of_any_kind_are_varied(tmp_path):
     assert {row["keys"]["memory.hazard"] for row in found.rows} == {"forward", "drain"}
 
 
+def test_keys_of_a_varied_unit_are_kept(tmp_path):
+    path = file_of(tmp_path, triangles(3), "")
+    machine = edgewalk.Machine(keys={"blend.kt_bits": 4})
+    found = edgewalk.sweep(path, {"blend.kind": ["interpolated"]}, machine)
+    assert [row["keys"]["blend.kt_bits"] for row in found.rows] == [4]
+
+
 def test_inputs_have_weights(tmp_path):
     path = str(file_of(tmp_path, triangles(20)))
     weights = {path: 100.0}

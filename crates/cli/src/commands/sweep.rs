@@ -10,7 +10,7 @@ mod pictures;
 mod why;
 
 use crate::commands::estimate::device;
-use crate::cost::{SynthArgs, Synthesiser, ToolArgs};
+use crate::cost::{SynthArgs, Synthesiser, ToolArgs, has_unit};
 use crate::estimator::Estimator;
 use crate::machine_args::MachineArgs;
 use crate::number::{real, whole};
@@ -234,11 +234,10 @@ impl What {
     }
 
     fn definition(&self, machine: &MachineArgs, chunks: Option<u32>) -> Result<Definition> {
-        let base: Plan = machine.machine(None)?;
         Ok(Definition {
             inputs: self.inputs.clone(),
             shading: self.shading.clone(),
-            machine: base.to_toml(),
+            machine: machine.keys()?.every_key_to_toml(),
             vary: self.vary.clone(),
             stalls: self.stalls.clone(),
             judge: self.judge.clone(),
@@ -255,7 +254,7 @@ impl What {
                 .collect::<Result<_>>()?,
             estimate: self.estimate,
             objectives: self.objective.clone(),
-            synth: self.synth.definition(&base)?,
+            synth: self.synth.asked()?,
             chunks,
             ..Definition::default()
         })
@@ -264,9 +263,8 @@ impl What {
 
 /// Runs what is missing, then writes what follows from all rows.
 fn swept(sweep: &Sweep, out: &Path, again: &[Status], tools: &ToolArgs, talk: Talk) -> Result<Verdict> {
-    keep(sweep, out)?;
     let path = out.join(ROWS);
-    let (store, rows) = Store::open(&path)?;
+    let (store, rows) = begun(sweep, out)?;
     let all = sweep.points.iter().collect::<Vec<_>>();
     let made = points(sweep, &all, (&store, store::by_key(rows)), again, tools, talk)
         .with_context(|| path.display().to_string())?;
@@ -282,9 +280,8 @@ fn searched(
     tools: &ToolArgs,
     talk: Talk,
 ) -> Result<Verdict> {
-    keep(&sweep, out)?;
     let path = out.join(ROWS);
-    let (store, rows) = Store::open(&path)?;
+    let (store, rows) = begun(&sweep, out)?;
     let (mut rows, mut made) = (store::by_key(rows), 0);
     while let Some(places) = hunt.next(&mut sweep, &rows) {
         let of: Vec<&Point> = places.iter().map(|place| &sweep.points[*place]).collect();
@@ -323,11 +320,15 @@ fn points(
     Ok(todo.len())
 }
 
-/// Writes what the sweep is, before anything runs.
-fn keep(sweep: &Sweep, out: &Path) -> Result<()> {
+/// Opens the rows, and then writes what the sweep is, before anything runs. The lock on the rows comes first: a sweep that
+/// runs in the folder keeps its definition.
+fn begun(sweep: &Sweep, out: &Path) -> Result<(Store, Vec<Value>)> {
+    std::fs::create_dir_all(out).with_context(|| format!("--out {}", out.display()))?;
+    let opened = Store::open(&out.join(ROWS))?;
     let staging = Staging::new(out)?;
     staging.write(DEFINITION, serde_json::to_string_pretty(&sweep.definition)? + "\n")?;
-    staging.publish(&[DEFINITION])
+    staging.publish(&[DEFINITION])?;
+    Ok(opened)
 }
 
 /// The sweep that a folder holds.
@@ -356,10 +357,17 @@ fn kept(out: &Path) -> Result<Sweep> {
     opened(definition).with_context(named)
 }
 
-/// The sweep with its inputs, which are read here.
+/// The sweep with its inputs, which are read here. A unit that is synthesised is one of a machine of the sweep.
 fn opened(definition: Definition) -> Result<Sweep> {
     let _reading = progress::reading();
-    Sweep::new(definition)
+    let sweep = Sweep::new(definition)?;
+    let unit = sweep.definition.synth.as_ref().map_or("machine", |of| &of.unit);
+    let plans = || sweep.points.iter().filter_map(|point| point.plan.as_ref().ok());
+    match plans().next() {
+        Some(first) if !plans().any(|plan| has_unit(unit, plan).is_ok()) => has_unit(unit, first)?,
+        _ => {}
+    }
+    Ok(sweep)
 }
 
 /// Writes and tells what follows from the rows, of which this run made so many.

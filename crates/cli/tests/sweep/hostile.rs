@@ -27,6 +27,23 @@ const AFTER: &str = r##"
 "##;
 
 #[test]
+fn best_machine_of_a_name_with_a_line_break_can_be_read() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = folder.path();
+    let name = "a\nb\r.tri";
+    std::fs::write(at.join(name), TRIANGLE).unwrap();
+    std::fs::write(at.join("c.tri"), TRIANGLE).unwrap();
+    let weight = format!("{name}=2");
+    let sweep =
+        ["sweep", name, "c.tri", "--weight", &weight, "--vary", "fifo.span=1", "--out", "s", "--quiet"];
+    assert_eq!(run(at, &sweep), (Some(0), String::new()));
+    let best = std::fs::read_to_string(at.join("s/best_cycles.toml")).unwrap();
+    assert!(best.starts_with("# machine ") && best.contains("a b .tri times 2"), "{best}");
+    let (code, error) = run(at, &["config", "check", "--machine", "s/best_cycles.toml"]);
+    assert_eq!((code, error.as_str()), (Some(0), ""));
+}
+
+#[test]
 fn names_of_files_are_shown_as_they_are() {
     let folder = tempfile::tempdir().unwrap();
     let at = folder.path();

@@ -1,7 +1,7 @@
 //! Parts run apart and put together; `why`; stalls.
 
 use super::{keys, rows};
-use crate::support::{edgewalk, names, run};
+use crate::support::{TRIANGLE, edgewalk, names, run};
 use serde_json::Value;
 use std::os::unix::fs::PermissionsExt;
 use std::process::Command;
@@ -62,6 +62,42 @@ fn parts_in_any_order_and_twice_merge_to_the_same_rows() {
     assert!(String::from_utf8_lossy(&output.stderr).contains("--chunk: no part is given; add --chunk N"));
     let (code, error) = run(at, &["sweep", "run", "--out", "whole", "--chunk", "0"]);
     assert!(code == Some(2) && error.contains("no parts"), "{error}");
+}
+
+#[test]
+fn merge_keeps_rows_of_other_sweeps_and_writes_nothing_where_rows_are_missing() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = folder.path();
+    let file = at.join("d/runs.jsonl");
+    let ran = |words: &[&str]| run(at, &[&["sweep"], words, &["--quiet", "--out", "d"]].concat());
+    std::fs::write(at.join("a.tri"), TRIANGLE).unwrap();
+    assert_eq!(ran(&["a.tri", "--vary", "fifo.span=1..5"]), (Some(0), String::new()));
+    let before = std::fs::read_to_string(&file).unwrap();
+    assert_eq!(
+        ran(&["plan", "a.tri", "--vary", "fifo.span=1,2,30", "--chunks", "1"]),
+        (Some(0), String::new())
+    );
+    assert_eq!(ran(&["run", "--chunk", "0"]), (Some(0), String::new()));
+    assert_eq!(ran(&["merge"]), (Some(0), String::new()));
+    let after = std::fs::read_to_string(&file).unwrap();
+    assert!(after.lines().count() == 6 && before.lines().skip(2).all(|row| after.contains(row)), "{after}");
+    // With another input no row belongs to the plan.
+    std::fs::write(at.join("a.tri"), TRIANGLE.replace("40", "30")).unwrap();
+    let (code, error) = ran(&["merge"]);
+    assert!(code == Some(2) && error.contains("3 of 3 points have no row yet"), "{error}");
+    assert!(std::fs::read_to_string(&file).unwrap() == after, "a merge that failed has changed rows");
+}
+
+#[test]
+fn parts_cannot_read_standard_input() {
+    let folder = tempfile::tempdir().unwrap();
+    let plan = ["sweep", "plan", "-", "--vary", "fifo.span=1,2", "--chunks", "1", "--out", "s"];
+    let (code, error) = run(folder.path(), &plan);
+    assert!(
+        code == Some(2) && error.contains("-: the parts of a sweep cannot read standard input"),
+        "{error}"
+    );
+    assert!(names(folder.path()).is_empty());
 }
 
 /// What HyperQueue's program does with a job array, all of it here and at once.

@@ -3,7 +3,7 @@
 use crate::support::{edgewalk, names, run};
 
 /// Arguments behind `sweep`, and what the error must say.
-const REFUSED: [(&[&str], &[&str]); 31] = [
+const REFUSED: [(&[&str], &[&str]); 32] = [
     (
         &["sphere", "--vary", "interpolator.ader=1,2"],
         &["unknown key interpolator.ader", "nearest: interpolator.adders"],
@@ -66,6 +66,10 @@ const REFUSED: [(&[&str], &[&str]); 31] = [
     (
         &["sphere", "--vary", "setup.lanes=1", "--weight", "sphere=inf"],
         &["`inf`: permitted: a finite number"],
+    ),
+    (
+        &["sphere", "--vary", "setup.lanes=1", "--weight", "sphere=1e308"],
+        &["`1e308`: permitted: a finite number above 0, at most 1e9"],
     ),
     (
         &["sphere", "--vary", "setup.lanes=1", "--weight", "sphere=2", "--weight", "sphere=3"],

@@ -2,7 +2,7 @@
 //! requirement tells how many machines it ruled out.
 
 use super::rows;
-use crate::support::{TRIANGLE, edgewalk, run};
+use crate::support::{SCREEN, TRIANGLE, edgewalk, run};
 use serde_json::Value;
 
 /// What `sweep` prints as JSON, and its rows.
@@ -139,6 +139,44 @@ fn only_what_the_estimate_leaves_open_is_built() {
     );
     assert!(estimate(of(1)) - error(of(1)) <= 420.0 && figure(of(1), "/synth/cells/lut4") <= 420.0);
     assert_eq!(report["ruled_out"][0], serde_json::json!({ "required": "lut4 <= 420", "machines": 1 }));
+}
+
+/// How many machines a requirement rules out of those of a sweep of `input`.
+fn ruled_out(folder: &std::path::Path, words: &[&str]) -> (u64, usize) {
+    std::fs::write(folder.join("whole.tri"), TRIANGLE).unwrap();
+    let words = [&["sweep", "--json", "--vary", "fifo.span=1,2", "--out", "r"], words].concat();
+    let output = edgewalk(folder, &words).output().unwrap();
+    let report: Value = serde_json::from_slice(&output.stdout).unwrap();
+    let count =
+        report["ruled_out"].as_array().unwrap().iter().map(|of| of["machines"].as_u64().unwrap()).sum();
+    (count, report["front"].as_array().unwrap().len())
+}
+
+#[test]
+fn distance_from_the_shading_equation_is_worked_out_where_it_is_required() {
+    let folder = tempfile::tempdir().unwrap();
+    let of =
+        |limit: &str| ruled_out(folder.path(), &[&["sphere", "--require", limit], &SCREEN[..]].concat()).0;
+    assert_eq!((of("shading_error<=0.0001"), of("shading_mean<=0.0001")), (2, 2));
+    assert_eq!((of("shading_error<=255"), of("shading_error>=0.0001")), (0, 0));
+}
+
+#[test]
+fn figures_that_are_not_known_keep_no_requirement() {
+    let folder = tempfile::tempdir().unwrap();
+    // Nothing is proved of textbook fill; a triangle file has no surface.
+    for words in [
+        &["whole.tri", "--machine", "textbook", "--require", "z_bound<=0.6"][..],
+        &["whole.tri", "--machine", "textbook", "--require", "z_bound>=0.6"],
+        &["whole.tri", "--require", "shading_error<=255"],
+    ] {
+        assert_eq!(ruled_out(folder.path(), words), (2, 0), "{words:?}");
+    }
+    // One that a figure breaks counts before one that is not known.
+    let words = ["whole.tri", "--machine", "textbook", "--require", "z_bound<=1", "--require", "cycles<=1"];
+    assert_eq!(ruled_out(folder.path(), &words), (2, 0));
+    let report = std::fs::read_to_string(folder.path().join("r/report.html")).unwrap();
+    assert!(report.contains("required: cycles &lt;= 1: rules out 2 of 2 machines"), "{report}");
 }
 
 /// What stands behind --require, and what the error must say.

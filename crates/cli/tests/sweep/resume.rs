@@ -1,7 +1,7 @@
 //! A sweep that is ended at any time goes on where it was.
 
 use super::{keys, rows};
-use crate::support::{edgewalk, run};
+use crate::support::{TRIANGLE, edgewalk, run};
 use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64Mcg;
 use serde_json::Value;
@@ -150,6 +150,31 @@ fn a_read_only_folder_is_said_and_the_rows_are_kept() {
     let (code, error) = run(folder.path(), &[SWEEP, &["--out", "s"]].concat());
     assert_eq!((code, error.as_str()), (Some(0), ""));
     assert_eq!((before.lines().count(), rows(&folder.path().join("s")).len()), (40, 288));
+}
+
+#[test]
+fn sweep_that_runs_keeps_its_definition() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = folder.path();
+    std::fs::write(at.join("a.tri"), TRIANGLE).unwrap();
+    let kept = || std::fs::read_to_string(at.join("s/sweep.json")).unwrap();
+    let sweep = ["sweep", "a.tri", "--quiet", "--out", "s", "--vary"];
+    assert_eq!(run(at, &[&sweep[..], &["fifo.span=1,2"]].concat()), (Some(0), String::new()));
+    let before = kept();
+    // As a sweep that runs holds it.
+    let rows = OpenOptions::new().append(true).open(at.join("s/runs.jsonl")).unwrap();
+    rows.lock().unwrap();
+    let plan = ["sweep", "plan", "a.tri", "--out", "s", "--chunks", "1", "--vary", "fifo.span=3"];
+    for words in [
+        &[&sweep[..], &["fifo.span=3"]].concat()[..],
+        &[&sweep[..], &["fifo.span=1..64", "--search", "32"]].concat(),
+        &plan,
+        &["sweep", "merge", "--out", "s"],
+    ] {
+        let (code, error) = run(at, words);
+        assert!(code == Some(2) && error.contains("another sweep is writing"), "{words:?}: {error}");
+        assert_eq!(kept(), before, "{words:?}");
+    }
 }
 
 #[test]

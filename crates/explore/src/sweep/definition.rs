@@ -18,7 +18,8 @@ pub struct Definition {
     /// How scenes and meshes are shaded, by a name of [`super::shading`]; none: each machine's input is shaded as its
     /// `shade.kind` says.
     pub shading: Option<String>,
-    /// The machine that the varied keys are changed in, TOML.
+    /// The machine that the varied keys are changed in: TOML of every key, with those of units that it has not. It need not be
+    /// one that can be built.
     pub machine: String,
     /// Varied keys, as `--vary` has them.
     pub vary: Vec<String>,
@@ -66,7 +67,7 @@ impl Default for Definition {
             program: env!("CARGO_PKG_VERSION").to_owned(),
             inputs: Vec::new(),
             shading: None,
-            machine: edgewalk_machine::Machine::default().to_toml(),
+            machine: edgewalk_machine::Machine::default().every_key_to_toml(),
             vary: Vec::new(),
             stalls: Vec::new(),
             judge: Judge::WORST.to_owned(),

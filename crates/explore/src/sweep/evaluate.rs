@@ -9,7 +9,8 @@ use super::store::Store;
 use anyhow::Result;
 use edgewalk_host::port::to_port;
 use edgewalk_host::reach::{Reach, reach};
-use edgewalk_machine::{EdgeKind, Plan};
+use edgewalk_judge::compare::bounds_for_input;
+use edgewalk_machine::{COLOURS, EdgeKind, Plan};
 use rayon::prelude::*;
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
@@ -145,12 +146,19 @@ impl Run<'_> {
         if let std::collections::btree_map::Entry::Vacant(place) = reaches.entry(edges) {
             place.insert(reach(plan, &to_port(geometry.frame(), plan)?)?);
         }
-        let Some(reach) = reaches.get(&edges).copied().flatten() else { return Ok(None) };
-        let beyond = |channel: &&edgewalk_machine::Channel| {
-            reach.bound(plan, channel).is_none_or(|bound| bound > limit)
+        let Some(reach) = reaches.get(&edges).copied().flatten() else {
+            // Nothing is drawn, which is said later; or nothing is proved of a frame in several passes.
+            let apart = stands_apart(geometry.frame(), plan);
+            return Ok(apart.then(|| format!("no bound is proved of this frame, asked for are {limit}")));
         };
-        Ok(plan.channels().iter().find(beyond).map(|channel| {
-            let bound = reach.bound(plan, channel);
+        let [z, color] = bounds_for_input(plan, geometry.frame(), &reach);
+        let mut bounds = plan.channels().iter().enumerate().map(|(place, channel)| match place {
+            0 => (channel, z),
+            place if COLOURS.contains(&place) => (channel, color),
+            _ => (channel, reach.bound(plan, channel)),
+        });
+        let beyond = bounds.find(|(_, bound)| bound.is_none_or(|bound| bound > limit));
+        Ok(beyond.map(|(channel, bound)| {
             let bound =
                 bound.map_or_else(|| "no bound is proved".to_owned(), |b| format!("proved are {b:.4} LSB"));
             format!(

@@ -7,6 +7,7 @@ use super::objective::Objective;
 use super::point::{Identity, Point};
 use super::require::Requirement;
 use super::shading;
+use super::space::{self, Space};
 use super::subject::{Subject, Way};
 use anyhow::{Result, anyhow};
 use edgewalk_machine::Machine;
@@ -46,7 +47,9 @@ pub struct Sweep {
     pub objectives: Vec<Objective>,
     /// What a machine must keep.
     pub requirements: Vec<Requirement>,
-    /// How many machines all values of the keys make.
+    /// All machines that the values of the keys make.
+    pub space: Space,
+    /// How many these are.
     pub whole: u64,
     /// How many machines there are points of.
     pub machines: usize,
@@ -77,7 +80,7 @@ impl Sweep {
         let over_memories = OverMemories::parse(&definition.judge, &memories)?;
         check_bound(definition.bound)?;
         check_seeds(definition.synth.as_ref())?;
-        let base = Machine::from_toml(&definition.machine).map_err(|e| anyhow!("{e}"))?;
+        let base = Machine::read(&definition.machine).map_err(|e| anyhow!("{e}"))?;
         let shadings = shadings(&definition, &base, &axes)?;
         let synth = definition.synth.is_some();
         let objectives = Objective::list(&definition.objectives, synth, shadings.len() > 1)?;
@@ -86,14 +89,18 @@ impl Sweep {
             &definition.fits,
             definition.synth.as_ref().map(|of| of.target.as_str()),
         )?;
-        let whole = axes.iter().map(|axis| axis.values.len() as u64).fold(1, u64::saturating_mul);
+        let space = Space::new(&base, &axes);
+        let whole = space.count();
         let rows = definition.inputs.len() * memories.len();
         let chosen = match definition.search {
             Some(_) => {
                 check_search(&definition, whole, rows as u64)?;
                 Vec::new()
             }
-            None => chosen(whole, definition.sample, rows as u64)?,
+            None => {
+                let index = |place| space.index(&base, &axes, place);
+                chosen(whole, definition.sample, rows as u64, index)?
+            }
         };
         check_chunks(definition.chunks, chosen.len() * rows)?;
         let inputs = inputs(&definition.inputs, &shadings)?;
@@ -107,6 +114,7 @@ impl Sweep {
             judge,
             objectives,
             requirements,
+            space,
             whole,
             machines: 0,
             points: Vec::new(),
@@ -119,7 +127,7 @@ impl Sweep {
 
     /// Adds the points of a machine.
     pub(super) fn add(&mut self, index: u64) {
-        let machine = self.machine(&self.base, index);
+        let machine = space::machine(&self.base, &self.axes, index);
         for memory in 0..self.memories.len() {
             for input in 0..self.inputs.len() {
                 let point = self.point(machine.clone(), [self.machines, memory, input]);
@@ -134,16 +142,9 @@ impl Sweep {
         (machine * self.memories.len() + memory) * self.inputs.len() + input
     }
 
-    /// The machine with this index among all combinations: the last key changes fastest.
-    fn machine(&self, base: &Machine, index: u64) -> Machine {
-        let mut machine = base.clone();
-        let mut rest = index;
-        for axis in self.axes.iter().rev() {
-            let count = axis.values.len() as u64;
-            (axis.key.set)(&mut machine, axis.values[(rest % count) as usize]);
-            rest /= count;
-        }
-        machine
+    /// The index of a machine by its place among all.
+    pub(super) fn index(&self, place: u64) -> u64 {
+        self.space.index(&self.base, &self.axes, place)
     }
 
     /// The point of a machine, a memory and an input, by their places.
@@ -190,6 +191,7 @@ impl Sweep {
     #[must_use]
     pub fn asks_equation(&self) -> bool {
         self.objectives.iter().any(Objective::is_of_equation)
+            || self.requirements.iter().any(Requirement::is_of_equation)
     }
 
     /// Whether rows tell the estimate of their machines.
@@ -272,8 +274,10 @@ fn check_chunks(chunks: Option<u32>, points: usize) -> Result<()> {
     }
 }
 
-/// The indices of the machines that are looked at, each of which has so many rows.
-fn chosen(whole: u64, sample: Option<Sample>, rows: u64) -> Result<Vec<u64>> {
+/// The indices of the machines that are looked at, each of which has so many rows; `index` has them by their places among all.
+fn chosen(whole: u64, sample: Option<Sample>, rows: u64, index: impl Fn(u64) -> u64) -> Result<Vec<u64>> {
+    /// Draws for each machine of a sample: of a space that is not listed many combinations may be the same machine.
+    const DRAWS: u64 = 64;
     let count = sample.map_or(whole, |sample| whole.min(u64::from(sample.points)));
     if sample.is_some_and(|sample| sample.points == 0) {
         return Err(anyhow!("--sample 0: permitted: at least 1"));
@@ -283,23 +287,26 @@ fn chosen(whole: u64, sample: Option<Sample>, rows: u64) -> Result<Vec<u64>> {
             "{count} machines with {rows} points each: permitted: {MAX_POINTS} points in all; look at some of them with --sample N --seed S; the program also has a search, --search N --seed S"
         ));
     }
-    let Some(sample) = sample.filter(|_| count < whole) else { return Ok((0..whole).collect()) };
+    let Some(sample) = sample.filter(|_| count < whole) else { return Ok((0..whole).map(index).collect()) };
     let mut random = Pcg64Mcg::seed_from_u64(sample.seed);
     // Distinct ones: on grids of few values a sequence of low discrepancy would repeat itself.
     if whole < 4 * count {
         let drawn = rand::seq::index::sample(&mut random, whole as usize, count as usize);
         return Ok(drawn
             .into_iter()
-            .map(|number| number as u64)
+            .map(|place| index(place as u64))
             .collect::<BTreeSet<_>>()
             .into_iter()
             .collect());
     }
-    let mut numbers = BTreeSet::new();
-    while (numbers.len() as u64) < count {
-        numbers.insert(random.random_range(0..whole));
+    let mut indices = BTreeSet::new();
+    for _ in 0..count * DRAWS {
+        if indices.len() as u64 == count {
+            break;
+        }
+        indices.insert(index(random.random_range(0..whole)));
     }
-    Ok(numbers.into_iter().collect())
+    Ok(indices.into_iter().collect())
 }
 
 /// The ways in which the machines shade.

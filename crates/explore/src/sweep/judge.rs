@@ -160,11 +160,14 @@ impl OverMemories {
     }
 }
 
+/// Largest weight of an input: with it the sum of all inputs stays a number.
+const MAX_WEIGHT: f64 = 1e9;
+
 impl OverInputs {
     /// Reads `sum` or `worst`, and weights as `INPUT=NUMBER`.
     ///
     /// # Errors
-    /// Another word; a weight of an unknown input, of one that has a weight already, or that is no number above 0; weights
+    /// Another word; a weight of an unknown input, of one that has a weight already, or that is no number above 0 and at most 1e9; weights
     /// beside `worst`.
     pub fn parse(word: &str, weights: &[String], inputs: &[Subject]) -> Result<OverInputs> {
         let mut known: Vec<(String, f64)> = Vec::new();
@@ -179,9 +182,10 @@ impl OverInputs {
             if known.iter().any(|(before, _)| before == name) {
                 return Err(says(format!("{name} has a weight already; give it once")));
             }
-            let weight = number.parse().ok().filter(|weight: &f64| weight.is_finite() && *weight > 0.0);
-            let weight =
-                weight.ok_or_else(|| says(format!("`{number}`: permitted: a finite number above 0")))?;
+            let weight = number.parse().ok().filter(|weight: &f64| *weight > 0.0 && *weight <= MAX_WEIGHT);
+            let weight = weight.ok_or_else(|| {
+                says(format!("`{number}`: permitted: a finite number above 0, at most {MAX_WEIGHT:e}"))
+            })?;
             known.push((name.to_owned(), weight));
         }
         match word {

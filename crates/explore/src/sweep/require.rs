@@ -2,6 +2,7 @@
 
 use super::judge::Judge;
 use super::objective::{OBJECTIVES, Objective};
+use super::row::Status;
 use anyhow::{Result, anyhow};
 use edgewalk_machine::Unknown;
 use serde_json::Value;
@@ -133,6 +134,12 @@ impl Requirement {
         (low > high).then(|| format!("no figure keeps this and {other}"))
     }
 
+    /// Whether it asks how far pictures are from the shading equation.
+    #[must_use]
+    pub fn is_of_equation(&self) -> bool {
+        matches!(self, Requirement::Figure { objective, .. } if objective.is_of_equation())
+    }
+
     /// Whether it asks for the estimate.
     #[must_use]
     pub fn is_of_estimate(&self) -> bool {
@@ -176,9 +183,8 @@ impl Requirement {
         }
     }
 
-    /// Whether a machine, whose rows these are, breaks it. What is not known breaks nothing.
-    #[must_use]
-    pub fn rules_out(&self, judge: &Judge, rows: &[Vec<&Value>]) -> bool {
+    /// Whether a figure of a machine, whose rows these are, breaks it.
+    fn rules_out(&self, judge: &Judge, rows: &[Vec<&Value>]) -> bool {
         match self {
             Requirement::Fits(device) => rows.iter().flatten().any(|row| fits(row, device) == Some(false)),
             Requirement::Figure { objective, .. } => {
@@ -186,6 +192,22 @@ impl Requirement {
                     || judge.value(objective, rows).is_some_and(|value| !self.keeps(value))
             }
         }
+    }
+
+    /// The place of the first requirement that a machine does not keep. One that a figure breaks comes before one whose figure is
+    /// not known.
+    #[must_use]
+    pub fn first_broken(all: &[Requirement], judge: &Judge, rows: &[Vec<&Value>]) -> Option<usize> {
+        let broken = all.iter().position(|of| of.rules_out(judge, rows));
+        broken.or_else(|| all.iter().position(|of| of.is_unknown(judge, rows)))
+    }
+
+    /// Whether a row that counts lacks the figure, though all of it is known: a bound that is not proved, say.
+    fn is_unknown(&self, judge: &Judge, rows: &[Vec<&Value>]) -> bool {
+        let Requirement::Figure { objective, .. } = self else { return false };
+        let lacks = |row: &&Value| Status::of(row) == Some(Status::Ok) && objective.of(row).is_none();
+        let counted = rows.iter().enumerate().filter(|(memory, _)| judge.memories.count(*memory));
+        counted.flat_map(|(_, rows)| rows).any(lacks)
     }
 
     /// Whether a row of one input, with a memory that counts, breaks it: then all the machine's rows do.

@@ -8,7 +8,9 @@
 use super::definition::Sample;
 use super::front::fronts;
 use super::grid::{Round, Sweep};
+use super::require::Requirement;
 use super::row::Status;
+use super::space::first_alike;
 use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64Mcg;
 use serde_json::Value;
@@ -18,6 +20,8 @@ use std::collections::{BTreeMap, BTreeSet};
 const STEP: usize = 16;
 /// Draws after which a machine is taken at random, as the neighbours are known.
 const TRIES: usize = 32;
+/// Draws after which no other machine is looked for: of a space that is not listed many combinations may be the same machine.
+const DRAWS: usize = 1 << 14;
 
 /// A search that goes on.
 pub struct Hunt {
@@ -52,6 +56,8 @@ impl Hunt {
         if before < self.budget {
             let best = ranked(sweep, &self.kept, reach, rows);
             self.grow(sweep, &best);
+        }
+        if before < self.indices.len() {
             self.kept = (0..self.indices.len()).collect();
             sweep.rounds.push(Round { inputs: 1, machines: self.indices.len() - before });
             return Some(self.points(sweep, &self.kept[before..], 0, 1));
@@ -95,19 +101,20 @@ impl Hunt {
                 // The better ones more often.
                 let place = (self.random.random::<f64>().powi(2) * parents.len() as f64) as usize;
                 let near = self.neighbour(sweep, self.indices[parents[place.min(parents.len() - 1)]]);
+                let near = first_alike(&sweep.base, &sweep.axes, near);
                 if !self.seen.contains(&near) {
                     index = Some(near);
                     break;
                 }
             }
-            let index = index.unwrap_or_else(|| {
-                loop {
-                    let any = self.random.random_range(0..sweep.whole);
-                    if !self.seen.contains(&any) {
-                        return any;
-                    }
-                }
+            let mut any = || sweep.index(self.random.random_range(0..sweep.whole));
+            let index = index.or_else(|| {
+                std::iter::repeat_with(&mut any).take(DRAWS).find(|any| !self.seen.contains(any))
             });
+            let Some(index) = index else {
+                self.budget = self.indices.len();
+                return;
+            };
             self.seen.insert(index);
             self.indices.push(index);
             sweep.add(index);
@@ -194,7 +201,7 @@ fn costs_of(sweep: &Sweep, machine: usize, reach: usize, rows: &BTreeMap<String,
     let own = (0..sweep.memories.len())
         .map(|memory| (0..reach).map(|input| row(memory, input)).collect::<Option<Vec<_>>>())
         .collect::<Option<Vec<_>>>()?;
-    if sweep.requirements.iter().any(|requirement| requirement.rules_out(&sweep.judge, &own)) {
+    if Requirement::first_broken(&sweep.requirements, &sweep.judge, &own).is_some() {
         return None;
     }
     let value = |objective: &super::Objective| Some(objective.cost(sweep.judge.value(objective, &own)?));

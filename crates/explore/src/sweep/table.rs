@@ -4,6 +4,7 @@ use super::front::fronts;
 use super::grid::Sweep;
 use super::judge::{Judge, OverMemories};
 use super::objective::{OBJECTIVES, Objective};
+use super::require::Requirement;
 use super::row::{Status, causes, is_beyond};
 use serde_json::Value;
 use std::cmp::Ordering;
@@ -96,10 +97,7 @@ impl<'t> Table<'t> {
             }
         }
         for machine in &mut machines {
-            machine.ruled_out = sweep
-                .requirements
-                .iter()
-                .position(|requirement| requirement.rules_out(&sweep.judge, &machine.rows));
+            machine.ruled_out = Requirement::first_broken(&sweep.requirements, &sweep.judge, &machine.rows);
             machine.values = values(sweep, &machine.rows).filter(|_| machine.ruled_out.is_none());
         }
         let known: Vec<usize> = (0..machines.len()).filter(|i| machines[*i].values.is_some()).collect();

@@ -16,6 +16,7 @@ use edgewalk_explore::sweep::row::{Status, is_beyond};
 use edgewalk_explore::sweep::shared::{geometry_key, pixel_key};
 use edgewalk_explore::sweep::{Definition, Point, Store, Sweep, store};
 use edgewalk_files::Staging;
+use edgewalk_scene::InputKind;
 use serde_json::json;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -32,6 +33,11 @@ fn file(out: &Path, chunk: u32) -> PathBuf {
 
 /// Writes the definition and the job scripts.
 pub fn plan(definition: &Definition, out: &Path, talk: Talk) -> Result<Verdict> {
+    if definition.inputs.iter().any(|input| input == InputKind::STANDARD_INPUT) {
+        return Err(anyhow!(
+            "-: the parts of a sweep cannot read standard input; permitted: scenes and files; write it to a file and name that"
+        ));
+    }
     let sweep = super::opened(definition.clone())?;
     let chunks = definition.chunks.unwrap_or(1);
     let program = std::env::current_exe().context("this program")?;
@@ -42,6 +48,9 @@ pub fn plan(definition: &Definition, out: &Path, talk: Talk) -> Result<Verdict> 
             .replace("@PROGRAM@", &quoted(&program.display().to_string()))
             .replace("@OUT@", &quoted(&out.display().to_string()))
     };
+    // A sweep that runs in the folder keeps its definition.
+    let rows = out.join(ROWS);
+    let _held = rows.exists().then(|| Store::open(&rows)).transpose()?;
     let staging = Staging::new(out)?;
     staging.write(DEFINITION, serde_json::to_string_pretty(definition)? + "\n")?;
     staging.write("slurm.sh", fill(SLURM))?;
@@ -115,9 +124,11 @@ fn chunk(asked: Option<u32>) -> Result<u32> {
     })
 }
 
-/// Puts the rows of all parts together, in the order of the points. Parts that are not there yet are missing and said to be.
+/// Puts the rows of all parts together, in the order of the points; rows of other sweeps in the file follow. Where a part is
+/// not there yet, nothing is written.
 pub fn merge(out: &Path, talk: Talk) -> Result<Verdict> {
     let sweep = kept(out)?;
+    let (_held, _) = Store::open(&out.join(ROWS))?;
     let parts = (0..sweep.definition.chunks.unwrap_or(0)).map(|chunk| file(out, chunk));
     let mut rows: BTreeMap<String, String> = BTreeMap::new();
     for path in [out.join(ROWS)].into_iter().chain(parts) {
@@ -125,17 +136,16 @@ pub fn merge(out: &Path, talk: Talk) -> Result<Verdict> {
             .map_err(|why| anyhow!("{}: {why}", path.display()))?;
         rows.extend(store::lines(&path)?);
     }
-    let there: Vec<_> = sweep.points.iter().filter_map(|point| rows.get(&point.key)).collect();
-    let missing = sweep.points.len() - there.len();
-    let staging = Staging::new(out)?;
-    staging.write(ROWS, there.iter().map(|row| format!("{row}\n")).collect::<String>())?;
-    staging.publish(&[ROWS])?;
-    let verdict = finished(&sweep, out, 0, talk)?;
+    let own: Vec<String> = sweep.points.iter().filter_map(|point| rows.remove(&point.key)).collect();
+    let missing = sweep.points.len() - own.len();
     if missing > 0 {
         return Err(anyhow!(
             "{missing} of {} points have no row yet; run their parts, then merge again",
             sweep.points.len()
         ));
     }
-    Ok(verdict)
+    let staging = Staging::new(out)?;
+    staging.write(ROWS, own.iter().chain(rows.values()).map(|row| format!("{row}\n")).collect::<String>())?;
+    staging.publish(&[ROWS])?;
+    finished(&sweep, out, 0, talk)
 }

@@ -62,16 +62,17 @@ impl<'o> Outcome<'o> {
                     Some(_) => format!("{} looked at, not of all,", self.table.machines.len()),
                     None => self.table.machines.len().to_string(),
                 };
-                let text = format!(
-                    "# machine {}, best of {of} for {}: {} ({}{})\n{}",
+                let about = format!(
+                    "machine {}, best of {of} for {}: {} ({}{})",
                     machine.hash(),
                     objective.name,
                     self.table.value(objective, candidate),
                     objective.doc,
-                    together(self.table.sweep),
-                    machine.to_toml()
+                    together(self.table.sweep)
                 );
-                staging.write(&best_file(objective.name), text)?;
+                // A name of an input may hold a line break, and a comment may not.
+                let about = about.replace(char::is_control, " ");
+                staging.write(&best_file(objective.name), format!("# {about}\n{}", machine.to_toml()))?;
             }
         }
         let bests = OBJECTIVES.iter().map(|objective| best_file(objective.name));
@@ -239,13 +240,11 @@ impl<'o> Outcome<'o> {
         );
         for candidate in front.iter().take(SHOWN) {
             let row = candidate.row();
-            let keys = self.table.sweep.axes.iter().map(|axis| {
-                let value = &row["keys"][axis.key.name];
-                format!(
-                    "{}={}",
-                    axis.key.name,
-                    value.as_str().map_or_else(|| value.to_string(), str::to_owned)
-                )
+            // A key of a unit that the machine has not is not told.
+            let keys = self.table.sweep.axes.iter().filter_map(|axis| {
+                let value = row["keys"].get(axis.key.name)?;
+                let shown = value.as_str().map_or_else(|| value.to_string(), str::to_owned);
+                Some(format!("{}={shown}", axis.key.name))
             });
             let values = candidate.values.iter().flatten().map(|value| number(*value));
             _ = writeln!(
