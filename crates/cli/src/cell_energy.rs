@@ -58,6 +58,8 @@ impl CellEnergy {
     /// A tool is missing, fails or takes too long. The machine cannot be built. The clock is too fast for the gates. The gates
     /// differ from the netlist, or there are too few cycles to compare the two.
     pub fn measure(&self, of: &Drawing, mhz: Option<f64>, taken: &dyn Fn()) -> Result<Report> {
+        // What no netlist draws alone is refused before the tools run.
+        of.port.state()?;
         let design = Design::new(of.machine, Part::MACHINE)
             .map_err(|e| anyhow!("the netlist cannot be built: {e}"))?;
         let gates = gates(&design, &self.library, &self.cache, self.limit)?;

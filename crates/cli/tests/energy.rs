@@ -330,6 +330,37 @@ const WRONG_LIBRARIES: [(&str, &str, &str); 30] = [
     ),
 ];
 
+/// What the netlist cannot draw alone is refused before the tools run: none is there. A table tells it in its place.
+#[test]
+fn frames_in_passes_are_refused_before_the_tools_run() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = |name: &str| folder.path().join(name);
+    let triangle = "T 1 1 0.5 1 0 0 0  31 3 0.25 0 1 0 0  5 28 0.75 0 0 1 0";
+    std::fs::write(at("q.tri"), format!("size 40 30\n{triangle}\ndepth off\n{triangle}\n")).unwrap();
+    std::fs::write(at("cells.lib"), CELLS).unwrap();
+    let of = |words: &[&str]| {
+        let screen = ["--set", "screen.width=40", "--set", "screen.height=30", "--library", "cells.lib"];
+        let mut command = edgewalk(folder.path(), &[words, &screen].concat());
+        let output =
+            command.env("PATH", folder.path()).env("XDG_CACHE_HOME", folder.path()).output().unwrap();
+        (output.status.code(), String::from_utf8_lossy(&output.stderr).into_owned())
+    };
+    let (code, error) = of(&["energy", "q.tri"]);
+    assert!(code == Some(2) && error.starts_with("error: 2 passes"), "{error}");
+    let table = |input: &str| of(&["compare", "default", "default", input, "--energy", "4", "--out", "o"]);
+    assert_eq!(table("q.tri"), (Some(0), String::new()));
+    let told: Value = serde_json::from_slice(&std::fs::read(at("o/features.json")).unwrap()).unwrap();
+    let row = &told["machines"][1]["inputs"][0];
+    assert!(
+        row["energy"]["reason"].as_str().unwrap().starts_with("2 passes") && row["verdict"] == "pass",
+        "{row}"
+    );
+    // A tool that is missing ends the command.
+    std::fs::write(at("a.tri"), format!("size 40 30\n{triangle}\n")).unwrap();
+    let (code, error) = table("a.tri");
+    assert!(code == Some(3) && error.contains("yosys is not installed"), "{error}");
+}
+
 #[test]
 fn wrong_libraries_are_refused() {
     let folder = tempfile::tempdir().unwrap();

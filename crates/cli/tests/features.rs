@@ -263,3 +263,75 @@ fn tables_that_cannot_be_made_are_refused() {
         assert!(code == Some(2) && error.contains(said), "{arguments:?}: {error}");
     }
 }
+
+/// A picture beyond its bounds is named, and so is what draws nothing.
+#[test]
+fn pictures_that_fail_are_named() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = folder.path();
+    std::fs::write(at.join("a.tri"), TRIANGLE).unwrap();
+    std::fs::write(at.join("off.tri"), "size 64 48\nT 70 70 0 1 0 0 0  90 70 0 0 1 0 0  70 90 1 0 0 1 0\n")
+        .unwrap();
+    let told = |words: &[&str]| {
+        let output = edgewalk(at, &[&["compare"], words, &["--table"], &SCREEN].concat()).output().unwrap();
+        let kept = std::fs::read(at.join("out/compare/features.json")).unwrap();
+        let text = String::from_utf8(output.stdout).unwrap();
+        (output.status.code(), text, serde_json::from_slice::<Value>(&kept).unwrap())
+    };
+    // The textbook machine differs from golden, as it should.
+    let (code, text, json) = told(&["default", "textbook", "a.tri"]);
+    let verdicts = [0, 1].map(|place| json["machines"][place]["inputs"][0]["verdict"].as_str().unwrap());
+    assert_eq!((code, verdicts), (Some(1), ["pass", "mismatch"]), "{text}");
+    assert!(text.contains("M2, a.tri: beside golden: mismatch\n") && !text.contains("M1, a.tri"), "{text}");
+    let (code, text, json) = told(&["default", "default,fifo.span=4", "off.tri", "a.tri"]);
+    assert_eq!(code, Some(0), "{text}");
+    for machine in [0, 1] {
+        let rows = &json["machines"][machine]["inputs"];
+        let why = "off.tri: nothing was drawn: none of its 1 triangles or polygons covers a pixel";
+        assert!(rows[0]["reason"].as_str().unwrap().starts_with(why), "{rows}");
+        assert_eq!(rows[1]["verdict"], "pass");
+    }
+    assert!(text.contains("M1, off.tri: not drawn: off.tri: nothing was drawn"), "{text}");
+    let (code, error) =
+        run(at, &[&["compare", "default", "default", "off.tri", "--table"], &SCREEN[..]].concat());
+    assert!(code == Some(2) && error.contains("nothing was drawn: none of its 1"), "{error}");
+}
+
+/// The page is a file like the others: refused before anything is drawn, and in the place of a link.
+#[test]
+fn page_is_checked_first_and_replaces_links() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = folder.path();
+    let path = |name: &str| at.join(name);
+    std::fs::write(path("a.tri"), TRIANGLE).unwrap();
+    std::fs::write(path("kept"), "kept").unwrap();
+    std::fs::create_dir(path("d")).unwrap();
+    std::os::unix::fs::symlink("kept", path("p.html")).unwrap();
+    let with = |page: &str| {
+        let words = ["compare", "default", "default", "a.tri", "--page", page, "--out", "o"];
+        run(at, &[&words[..], &SCREEN].concat())
+    };
+    for (page, said) in [
+        (
+            "o/features.json",
+            "the command writes features.json into --out itself; permitted: a name other than",
+        ),
+        ("d/../o/features.txt", "the command writes features.txt into --out itself"),
+        ("none/p.html", "the folder none is not there; permitted: a file in a folder that is there"),
+        ("d", "a folder stands there; permitted: a regular file or a new name"),
+        ("/dev/null", "a device stands there; permitted: a regular file or a new name"),
+        ("..", "the path names no file"),
+    ] {
+        let (code, error) = with(page);
+        let named = error.starts_with(&format!("error: --page {page}: "));
+        assert!(code == Some(2) && named && error.contains(said), "{page}: {error}");
+        assert!(!path("o").exists(), "{page}");
+    }
+    for page in ["p.html", "o/p.html"] {
+        assert_eq!(with(page).0, Some(0), "{page}");
+        assert!(std::fs::read_to_string(path(page)).unwrap().ends_with("</html>\n"));
+        assert!(!path(page).is_symlink(), "{page}");
+    }
+    assert_eq!(std::fs::read_to_string(path("kept")).unwrap(), "kept");
+    assert!(path("o/features.json").exists());
+}

@@ -220,3 +220,38 @@ fn parts_of_one_count_as_one() {
         assert_eq!(tokens(&[&input, "--triangles", "2"], name), alone + 1, "{name}");
     }
 }
+
+/// The machine's picture of cut triangles and golden's of whole ones are both right, and another is not.
+#[test]
+fn either_picture_of_a_cut_triangle_is_right() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = folder.path();
+    let plane = "size 100 3\nT -99999.73927017405 2.024609490776312 0.7 0.1 0.569 0.044 0.3 \
+        9000.307914715828 1.5 0.1 0.54 0.9 0.3 0.3  -99999.41446926375 0 0 0 0 0.5 0.3\n";
+    std::fs::write(at.join("plane.tri"), plane).unwrap();
+    let judged = |picture: &str| {
+        let output = edgewalk(at, &["judge", "plane.tri", picture, "--json"]).output().unwrap();
+        let code = ended(&output).0;
+        let told: Value = serde_json::from_slice(&output.stdout).unwrap();
+        let causes = told["causes"].as_array().unwrap();
+        let piece = causes.iter().find(|count| count["cause"] == "piece").unwrap();
+        (code, told["wrong"].as_u64().unwrap(), piece["pixels"].as_u64().unwrap())
+    };
+    for (engine, cut) in [("golden", false), ("fast", true)] {
+        let (code, error) = run(at, &["raster", "plane.tri", "--engine", engine, "--out", engine]);
+        assert_eq!(code, Some(0), "{error}");
+        let (code, wrong, piece) = judged(engine);
+        println!("{engine}: {piece} pixels of pieces");
+        assert_eq!((code, wrong, piece > 90), (Some(0), 0, cut), "{engine}");
+    }
+    // A depth that is neither golden's nor that of the pieces is wrong.
+    let file = at.join("fast/z.npy");
+    let mut bytes = std::fs::read(&file).unwrap();
+    // The one in the middle of the screen.
+    let place = bytes.len() - 8 * 150;
+    let depth = f64::from_le_bytes(bytes[place..place + 8].try_into().unwrap());
+    bytes[place..place + 8].copy_from_slice(&(depth / 2.0).to_le_bytes());
+    std::fs::write(&file, bytes).unwrap();
+    let (code, wrong, _) = judged("fast");
+    assert_eq!((code, wrong), (Some(1), 1));
+}

@@ -372,3 +372,28 @@ fn blended_pixels_must_be_in_shadow() {
         assert!(report["wrong"].as_u64().unwrap() > 1000, "{report}");
     }
 }
+
+/// By the textbook rule a triangle covers centres beside it, where its plane leaves 0 to 1.
+#[test]
+fn goldens_textbook_arrays_are_judged() {
+    let folder = folder(
+        "size 33 17
+T 2.3 2.4 0 1 0 0 0  30.2 3.7 1 0 1 0 0  12.6 14.3 0.5 0 0 1 0
+T 20.1 3 1 0 1 0 0  22.2 15.7 0 0 1 0 0  31.6 9.3 0 0 0 1 0
+",
+    );
+    let textbook = ["--machine", "textbook"];
+    raster(folder.path(), &["--engine", "golden", "--machine", "textbook"], "g");
+    let (code, report, error) = judged(folder.path(), &[&["g"], &textbook[..]].concat());
+    assert_eq!((code, &report["wrong"]), (Some(0), &0.into()), "{error}");
+    // By another rule such floats are wrong values.
+    let (code, _, error) = judged(folder.path(), &["g"]);
+    assert!(code == Some(2) && error.contains("permitted: floats in 0 to 1"), "{error}");
+    // What is no number is refused by every rule.
+    let mut bytes = std::fs::read(folder.path().join("g/z.npy")).unwrap();
+    let end = bytes.len() - 8;
+    bytes[end..].copy_from_slice(&f64::NAN.to_le_bytes());
+    std::fs::write(folder.path().join("g/z.npy"), bytes).unwrap();
+    let (code, _, error) = judged(folder.path(), &[&["g"], &textbook[..]].concat());
+    assert!(code == Some(2) && error.contains("NaN in pixel (32, 16); permitted: finite floats"), "{error}");
+}

@@ -1,6 +1,6 @@
 //! `edgewalk triangles --shading phong`: the file draws the picture of its scene, or there is no file.
 
-use crate::support::run;
+use crate::support::{edgewalk, ended, report, run};
 
 const SMALL: [&str; 5] = ["--adapt", "--set", "screen.width=61", "--set", "screen.height=47"];
 
@@ -111,4 +111,39 @@ fn too_many_surfaces_name_what_is_possible() {
     let line = text.match_indices("\nT").nth(100).unwrap().0;
     let few = error(&text[..=line]);
     assert!(few.contains("add --set shade.material_bits=7 or --set shade.colour=multiply"), "{few}");
+}
+
+/// A surface of two triangles, one over the other; `between` stands between them.
+fn two_shaded(mode: &str, between: &str) -> String {
+    format!(
+        "size 32 32\nmode {mode}\nview 0 0 1\nsun 0.3 0.3 1 0.7\nsun -1 0 0.5 0.2\nmaterial 0.1 0.7 0.5 40\n\
+         T 1 1 0.5 0 0.2 1 0   31 1 0.5 0 0.2 1 0   1 31 0.5 0 0.2 1 0\n\
+         N -0.3 -0.3 0.9055  0.5 -0.3 0.8124  -0.3 0.5 0.8124\n{between}\n\
+         T 31 31 0.4 0 0.2 1 0.5   31 4 0.3 0 0.2 1 0.5   4 31 0.3 0 0.2 1 0.5\n\
+         N 0.3 0.3 0.9055  0.5 -0.3 0.8124  -0.3 0.5 0.8124\n"
+    )
+}
+
+/// Layers of shaded colours have the bound of shading, not that of the interpolator.
+#[test]
+fn layers_of_shaded_colours_have_their_own_bound() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    let mut checked = 0;
+    for mode in ["phong", "fast-phong"] {
+        for between in ["depth lequal", "clear_depth", "blend 1", "blend add"] {
+            std::fs::write(folder.join("x.tri"), two_shaded(mode, between)).unwrap();
+            let output = edgewalk(folder, &["render", "x.tri", "--adapt", "--json", "--out", "r"]).output();
+            let output = output.unwrap();
+            assert_eq!(ended(&output), (Some(0), String::new()), "{mode}, {between}");
+            let blended = &report(&output)["comparison"]["blended"];
+            println!("{mode}, {between}: {blended}");
+            // The bound says something: more than the interpolator's, and a part of the range of 255.
+            let bound = blended["bound"].as_f64().unwrap();
+            assert!((1.0..20.0).contains(&bound) && blended["of_bound"].as_f64() > Some(0.1), "{blended}");
+            assert!(blended["pixels"].as_u64() > Some(500), "{blended}");
+            checked += 1;
+        }
+    }
+    assert_eq!(checked, 8);
 }

@@ -147,3 +147,16 @@ fn nothing_drawn_is_exit_code_2_with_its_reason_even_if_quiet() {
     println!("checked {checked} / 29 commands");
     assert_eq!(checked, 3 * 7 + 2 * 4);
 }
+
+/// A pass without colours stores depths, which are compared; the colours stay those of the empty screen.
+#[test]
+fn depths_without_colours_are_compared() {
+    let text = "size 8 8\ncolour_write 0\nT 0 0 0.5 1 0 0 0  8 0 0.5 1 0 0 0  0 8 0.3 1 0 0 0\n";
+    let depths = "formats.z_fraction=14";
+    let (code, report, text) = render(text, &["blend.kind=constant", depths]);
+    let c = &report["comparison"];
+    assert_eq!((code, &c["background_wrong"]), (Some(0), &0.into()), "{text}");
+    // 28 centres lie in it, and none of them has a colour.
+    assert_eq!(c["compared"], 28, "{c}");
+    assert!(c["z_error"].as_f64() > Some(0.0), "{c}");
+}

@@ -39,7 +39,8 @@ pub fn layers(frame: &Frame, machine: &Plan, (x, y): (u32, u32)) -> Result<Vec<L
     }
     let port = to_port(frame, machine)?;
     let mut lights = Lights::of(machine, frame, port.lights.iter().map(|map| &map.words[..]).collect(), None);
-    let (errors, max, mut bound) = (Errors::of(machine, frame), machine.color.max() as f64, 0.5);
+    let proof = port.shade.as_ref().map(|feed| &feed.proof);
+    let (errors, max, mut bound) = (Errors::of(machine, frame, proof), machine.color.max() as f64, 0.5);
     let mut layers = Vec::new();
     let drawing = golden_drawing(frame, machine);
     let picture = |step| {
@@ -49,7 +50,14 @@ pub fn layers(frame: &Frame, machine: &Plan, (x, y): (u32, u32)) -> Result<Vec<L
         }
         let front = own.map(|channel| channel * share);
         let seen = lights.seen([f64::from(x) + 0.5, f64::from(y) + 0.5, z], id, light);
-        bound = errors.behind(bound, errors.front(own, share, &seen), front, kt, back, blend);
+        bound = errors.behind(
+            bound,
+            errors.front((y as usize * frame.width as usize + at, id), own, share, &seen),
+            front,
+            kt,
+            back,
+            blend,
+        );
         let golden = std::array::from_fn(|i| match blend {
             Blending::Off => front[i],
             Blending::Mix => (1.0 - kt) * front[i] + kt * back[i],

@@ -2,7 +2,7 @@
 
 use anyhow::{Context as _, Result, anyhow, bail, ensure};
 use edgewalk_judge::outside::Picture;
-use edgewalk_judge::outside::picture::{COVERAGE, ID, LIT, Permitted, in_unit};
+use edgewalk_judge::outside::picture::{COVERAGE, Floats, ID, LIT, Permitted, floats};
 use npyz::{Deserialize, NpyFile, Order};
 use std::fs::File;
 use std::io::{BufReader, Read, Seek as _};
@@ -14,8 +14,9 @@ const NAMES: [&str; 5] = ["coverage.npy", "id.npy", "z.npy", "rgb.npy", "lit.npy
 /// Longest header of an array that is read, bytes.
 const MAX_HEADER: u64 = 1 << 16;
 
-/// Reads what these paths name: pictures of this size, whose depths and colours have so many bits where they are integers.
-pub fn read(paths: &[PathBuf], size: (u32, u32), bits: [u32; 2]) -> Result<Picture> {
+/// Reads what these paths name: pictures of this size, whose depths and colours have so many bits where they are integers. Where
+/// they are floats, `range` says what these may be.
+pub fn read(paths: &[PathBuf], size: (u32, u32), bits: [u32; 2], range: Floats) -> Result<Picture> {
     let mut picture = Picture { width: size.0, height: size.1, ..Picture::default() };
     for path in paths {
         if path.is_dir() {
@@ -27,16 +28,16 @@ pub fn read(paths: &[PathBuf], size: (u32, u32), bits: [u32; 2]) -> Result<Pictu
                 path.display(),
                 NAMES.join(", ")
             );
-            there.iter().try_for_each(|file| add(&mut picture, file, bits))?;
+            there.iter().try_for_each(|file| add(&mut picture, file, bits, range))?;
         } else {
-            add(&mut picture, path, bits)?;
+            add(&mut picture, path, bits, range)?;
         }
     }
     Ok(picture)
 }
 
 /// Reads a file into its place.
-fn add(picture: &mut Picture, path: &Path, [z_bits, color_bits]: [u32; 2]) -> Result<()> {
+fn add(picture: &mut Picture, path: &Path, [z_bits, color_bits]: [u32; 2], range: Floats) -> Result<()> {
     let name = path.file_name().and_then(|name| name.to_str()).unwrap_or_default();
     let shown = || path.display().to_string();
     let twice = match name {
@@ -65,9 +66,9 @@ fn add(picture: &mut Picture, path: &Path, [z_bits, color_bits]: [u32; 2]) -> Re
         "coverage.npy" => picture.coverage = Some(whole(array, &COVERAGE, size.0).with_context(shown)?),
         "id.npy" => picture.id = Some(whole(array, &ID, size.0).with_context(shown)?),
         "lit.npy" => picture.lit = Some(whole(array, &LIT, size.0).with_context(shown)?),
-        "z.npy" => picture.z = Some(unorm(array, z_bits, size.0, 1).with_context(shown)?),
+        "z.npy" => picture.z = Some(unorm(array, (z_bits, range), size.0, 1).with_context(shown)?),
         _ => {
-            let values = unorm(array, color_bits, size.0, 3).with_context(shown)?;
+            let values = unorm(array, (color_bits, range), size.0, 3).with_context(shown)?;
             picture.rgb = Some(values.chunks_exact(3).map(|c| [c[0], c[1], c[2]]).collect());
         }
     }
@@ -152,8 +153,8 @@ fn whole<T: TryFrom<i128>>(array: Array, of: &Permitted, columns: u32) -> Result
     );
 }
 
-/// Floats in 0 to 1, or unsigned integers in LSB of this many bits, of a picture with so many columns and `each` values a pixel.
-fn unorm(array: Array, bits: u32, columns: u32, each: usize) -> Result<Vec<f64>> {
+/// Floats in this range, or unsigned integers in LSB of this many bits, of a picture with so many columns and `each` values a pixel.
+fn unorm(array: Array, (bits, range): (u32, Floats), columns: u32, each: usize) -> Result<Vec<f64>> {
     let one = (1u64 << bits) - 1;
     let lsb = |value: u64| {
         ensure!(
@@ -163,8 +164,8 @@ fn unorm(array: Array, bits: u32, columns: u32, each: usize) -> Result<Vec<f64>>
         Ok(value as f64 / one as f64)
     };
     by_type!(array,
-        f64 => |v| in_unit(v, columns, each),
-        f32 => |v| in_unit(v.into_iter().map(f64::from).collect(), columns, each),
+        f64 => |v| floats(v, range, columns, each),
+        f32 => |v| floats(v.into_iter().map(f64::from).collect(), range, columns, each),
         u8 => |v| v.into_iter().map(|v| lsb(v.into())).collect(),
         u16 => |v| v.into_iter().map(|v| lsb(v.into())).collect(),
         u32 => |v| v.into_iter().map(|v| lsb(v.into())).collect(),

@@ -25,7 +25,12 @@ const OLD: &str = "old";
 impl Staging {
     /// Prepares the way into `target`; whatever goes wrong before [`Staging::publish`] leaves everything as it was.
     pub fn new(target: &Path) -> Result<Self> {
-        let scratch = Scratch::within(target).with_context(|| format!("--out {}", target.display()))?;
+        Self::within(target, || format!("--out {}", target.display()))
+    }
+
+    /// Like `new`, for a folder that the user gave in another way; `given` says how in an error.
+    pub fn within(target: &Path, given: impl FnOnce() -> String) -> Result<Self> {
+        let scratch = Scratch::within(target).with_context(given)?;
         Ok(Staging { target: target.to_owned(), scratch })
     }
 

@@ -238,6 +238,19 @@ pub fn placed(frame: Frame, machine: &Plan) -> Result<(Frame, Vec<i32>)> {
     Ok((Frame { triangles, changes, polygons: Vec::new(), lines, host, ..frame }, own))
 }
 
+/// The triangles of a frame as the machine's guard band cuts them, with the place of each in the frame; none where nothing is cut. Of a
+/// frame with polygons none either, as golden draws these whole.
+///
+/// # Errors
+/// None without polygons.
+pub fn cut_at_band(frame: &Frame, machine: &Plan) -> Result<Option<(Frame, Vec<i32>)>> {
+    if !frame.polygons.is_empty() {
+        return Ok(None);
+    }
+    let (cut, places) = placed(frame.clone(), machine)?;
+    Ok((cut.host.clipped > frame.host.clipped).then_some((cut, places)))
+}
+
 /// How many triangles, polygons and lines a frame draws.
 #[must_use]
 pub fn counted(frame: &Frame) -> Counted {

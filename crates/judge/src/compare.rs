@@ -86,9 +86,7 @@ pub fn compare_shaded(
     reach: Option<&Reach>,
     proof: Option<&Proof>,
 ) -> Comparison {
-    let allowed = frame.shading.as_ref().zip(proof);
-    let allowed = allowed.map(|(shading, proof)| Allowed::new(machine, frame, shading, golden, proof));
-    let c = compared(machine, frame, golden, drawn, reach, allowed);
+    let c = compared(machine, frame, golden, drawn, reach, proof);
     match reach {
         Some(reach) => c.reaching(machine, reach),
         None => c,
@@ -117,18 +115,20 @@ fn compared(
     golden: &Raster,
     drawn: &Raster,
     reach: Option<&Reach>,
-    allowed: Option<Allowed>,
+    proof: Option<&Proof>,
 ) -> Comparison {
     let mut light = Lights::drawn(machine, frame, drawn, reach);
-    if let Some(layers) = Layers::of(machine, frame, light.as_mut()) {
+    if let Some(layers) = Layers::of(machine, frame, light.as_mut(), proof) {
         let mut tally = Tally::new(machine, frame);
         let mut counts = Counts::new(machine, drawn.cycles.as_ref());
-        let found = blended(&mut counts, &mut tally, &layers, frame, (golden, drawn), light.as_mut());
+        let found = blended(&mut counts, &mut tally, &layers, (golden, drawn), light.as_mut());
         let maps = [tally.z.map(), tally.color.map()];
         let mut c = Comparison::of(machine, counts, tally);
         c.errors.color.bounded_elsewhere("each pixel has that of its layers");
         return Comparison { blended: Some(found), lit: light.map(Lights::found), ..c }.with_maps(maps);
     }
+    let allowed = frame.shading.as_ref().zip(proof);
+    let allowed = allowed.map(|(shading, proof)| Allowed::new(machine, frame, shading, golden, proof));
     let mut bands = Bands { light, allowed, ..Bands::new(machine, frame, drawn.cycles.as_ref(), reach) };
     let maps = bands.add(golden, drawn);
     bands.ended().with_maps(maps)
@@ -196,7 +196,7 @@ impl<'a> Bands<'a> {
                     tally.depth(i, golden.z[i], drawn); // the colour is another
                 }
             } else {
-                c.background_wrong += u64::from(!tally.is_background(i, frame.clear, drawn));
+                c.background_wrong += u64::from(!tally.is_uncolored(i, golden, drawn));
             }
             c.compared += u64::from(golden.coverage[i] > 0);
         }
@@ -212,7 +212,7 @@ impl<'a> Bands<'a> {
                     match shown {
                         Some(shown) if depth_alone => tally.depth(i, stored(&shown), drawn),
                         Some(shown) => tally.triangle(i, stored(&shown), &shown, drawn),
-                        None => c.background_wrong += u64::from(!tally.is_background(i, frame.clear, drawn)),
+                        None => c.background_wrong += u64::from(!tally.is_background(i, drawn)),
                     }
                 }
                 None => c.order_wrong += 1,
@@ -255,7 +255,6 @@ fn blended(
     c: &mut Counts,
     tally: &mut Tally,
     layers: &Layers,
-    frame: &Frame,
     (golden, drawn): (&Raster, &Raster),
     mut light: Option<&mut Lights>,
 ) -> Blended {
@@ -276,7 +275,7 @@ fn blended(
                 }
                 light.decided(i, golden, drawn, Some(layers.last[i])) && !layers.loose[i]
             });
-            if alike {
+            if alike && !layers.branches[i] {
                 tally.triangle(i, golden.z[i], &Over::golden(golden, i), drawn);
             } else {
                 tally.depth(i, golden.z[i], drawn); // the colour may be another
@@ -288,10 +287,8 @@ fn blended(
             found.bound = found.bound.max(bound);
             found.of_bound = found.of_bound.max(error / bound);
             found.beyond += u64::from(error.is_nan() || error > bound + 1e-9);
-        } else if golden.z[i] == 1.0 {
-            c.background_wrong += u64::from(!tally.is_background(i, frame.clear, drawn));
         } else {
-            c.background_wrong += u64::from(!tally.depth_only(i, golden.z[i], frame.clear, drawn));
+            c.background_wrong += u64::from(!tally.is_uncolored(i, golden, drawn));
         }
     }
     found

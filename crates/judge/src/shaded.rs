@@ -100,6 +100,55 @@ pub(crate) struct Allowed<'a> {
     found: Shaded,
 }
 
+/// How far the colours of each triangle may be from golden's, whatever lies over them: of a frame in layers.
+pub(crate) struct Spread {
+    /// By triangle, LSB.
+    bounds: Vec<f64>,
+    /// By pixel and triangle, LSB, where it may have another colour than golden's: beyond the horizon, or at the border of a texel.
+    branches: HashMap<(usize, i32), f64>,
+}
+
+impl Spread {
+    /// Of a frame.
+    pub fn new(machine: &Plan, frame: &Frame, shading: &PixelShading, proof: &Proof) -> Self {
+        let one = machine.color.max() as f64;
+        let mut branches = HashMap::new();
+        for (place, triangle) in frame.triangles.iter().enumerate() {
+            let Some(brush) = PixelBrush::new(shading, place) else { continue };
+            let screen = (frame.width, frame.height);
+            fragments(triangle, frame.mode, machine.subpixel_bits, screen, |fragment| {
+                let golden = brush.texel(fragment);
+                let own = proof.textured[place].as_ref().zip(brush.place(fragment));
+                // A texel that the words' errors do not explain is wrong.
+                let texel = own.map_or(golden, |(own, at)| {
+                    let texel = own.texel([fragment.x, fragment.y]);
+                    if own.explains(texel, at) { own.texture.exact(texel) } else { golden }
+                });
+                let list = brush.branches(fragment, &texel, proof.doubts[place], proof.errors[place].axis);
+                if list.len() > 1 || own.is_some() {
+                    let exact = brush.color_by(fragment, &golden);
+                    let off =
+                        |of: [f64; 3]| (0..3).map(|i| (of[i] - exact[i]).abs() * one).fold(0.0, f64::max);
+                    let farthest = list.into_iter().map(off).fold(0.0, f64::max);
+                    let at = fragment.y as usize * frame.width as usize + fragment.x as usize;
+                    branches.insert((at, place as i32), farthest);
+                }
+            });
+        }
+        Spread { bounds: proof.bounds.clone(), branches }
+    }
+
+    /// Largest error of a colour of this triangle, LSB.
+    pub fn bound(&self, id: i32) -> f64 {
+        usize::try_from(id).map_or(0.0, |id| self.bounds[id])
+    }
+
+    /// How far its colour at this pixel may be from golden's beside that, LSB.
+    pub fn at(&self, pixel: usize, id: i32) -> f64 {
+        self.branches.get(&(pixel, id)).copied().unwrap_or(0.0)
+    }
+}
+
 impl<'a> Allowed<'a> {
     /// Of a frame, `golden` its picture.
     pub fn new(

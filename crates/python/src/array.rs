@@ -1,7 +1,7 @@
 //! Arrays of numpy in and out: row 0 on top, C order.
 
 use crate::error::Error;
-use edgewalk_judge::outside::picture::{Permitted, in_unit};
+use edgewalk_judge::outside::picture::{self, Floats, Permitted};
 use numpy::{Element, PyArrayDyn, PyArrayMethods, PyReadonlyArrayDyn, PyUntypedArrayMethods};
 use pyo3::prelude::*;
 
@@ -61,13 +61,21 @@ pub fn floats(name: &'static str, value: &Bound<'_, PyAny>, sides: &[usize]) -> 
     given.values("float64", &[&[count], sides].concat())
 }
 
-/// Floats in 0 to 1, or unsigned integers in LSB of this many bits.
-pub fn unorm(name: &'static str, value: &Bound<'_, PyAny>, shape: &[usize], bits: u32) -> PyResult<Vec<f64>> {
+/// Floats in this range, or unsigned integers in LSB of this many bits.
+pub fn unorm(
+    name: &'static str,
+    value: &Bound<'_, PyAny>,
+    shape: &[usize],
+    (bits, range): (u32, Floats),
+) -> PyResult<Vec<f64>> {
     let (columns, each) = (shape[1] as u32, shape.get(2).copied().unwrap_or(1));
     let given = Given::new(name, value)?;
     let one = (1u64 << bits) - 1;
     match &*given.kind {
-        "f" => in_unit(given.values("float64", shape)?, columns, each).map_err(|error| said(name, &error)),
+        "f" => {
+            let values = given.values("float64", shape)?;
+            picture::floats(values, range, columns, each).map_err(|error| said(name, &error))
+        }
         "u" => {
             let values: Vec<u64> = given.values("uint64", shape)?;
             if let Some(value) = values.iter().find(|value| **value > one) {

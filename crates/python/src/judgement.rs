@@ -7,7 +7,7 @@ use crate::source;
 use anyhow::ensure;
 use edgewalk_host::draw;
 use edgewalk_judge::Verdict;
-use edgewalk_judge::outside::picture::{COVERAGE, ID, LIT};
+use edgewalk_judge::outside::picture::{COVERAGE, Floats, ID, LIT};
 use edgewalk_judge::outside::{self, Asked, Cause, Rule, Tolerance};
 use edgewalk_machine::Fill;
 use edgewalk_model::Waits;
@@ -122,8 +122,11 @@ pub fn judge(
     };
     let (machine, frame) = source::frame(triangles, machine, header)?;
     let shape @ [height, width] = [machine.height as usize, machine.width as usize];
+    let own = self::rule(None, machine.fill)?;
+    let rule = self::rule(rule, machine.fill)?;
+    let range = if rule == Rule::Textbook { Floats::Finite } else { Floats::InUnit };
     let colors = |rgb| -> PyResult<Vec<[f64; 3]>> {
-        let values = unorm("rgb", rgb, &[height, width, 3], machine.color.bits)?;
+        let values = unorm("rgb", rgb, &[height, width, 3], (machine.color.bits, range))?;
         Ok(values.chunks_exact(3).map(|c| [c[0], c[1], c[2]]).collect())
     };
     let picture = outside::Picture {
@@ -131,15 +134,13 @@ pub fn judge(
         height: machine.height,
         coverage: coverage.map(|values| whole("coverage", values, &shape, &COVERAGE)).transpose()?,
         id: id.map(|values| whole("id", values, &shape, &ID)).transpose()?,
-        z: z.map(|values| unorm("z", values, &shape, machine.z.bits)).transpose()?,
+        z: z.map(|values| unorm("z", values, &shape, (machine.z.bits, range))).transpose()?,
         rgb: rgb.map(colors).transpose()?,
         lit: lit.map(|values| whole("lit", values, &shape, &LIT)).transpose()?,
     };
     if [z, rgb, coverage, id, lit].iter().all(Option::is_none) {
         return Err(Error::new_err("no array; permitted: one or more of z, rgb, coverage, id, lit"));
     }
-    let own = self::rule(None, machine.fill)?;
-    let rule = self::rule(rule, machine.fill)?;
     let (depth, color) = (asked("depth_lsb", depth_lsb)?, asked("color_lsb", color_lsb)?);
     let judgement = run(py, || {
         let tolerance = Tolerance::of(&machine, &frame, depth, color);

@@ -10,6 +10,7 @@ use anyhow::{Result, ensure};
 use edgewalk_files::{Staging, foreign, picture};
 use edgewalk_host::draw;
 use edgewalk_host::input::counted;
+use edgewalk_judge::outside::picture::Floats;
 use edgewalk_judge::outside::{self, Asked, Cause, Judgement, Rule, Tolerance};
 use edgewalk_machine::{Fill, Plan};
 use edgewalk_model::Waits;
@@ -19,7 +20,8 @@ use std::path::PathBuf;
 /// Judge the picture of another rasterizer beside golden's, by frame: final depth and colour, whatever the order of writes.
 ///
 /// PICTURE is a folder with those of coverage.npy, id.npy, z.npy, rgb.npy and lit.npy that there are, as `raster` writes them; or such
-/// files by name; or a PNG. Depths and colours are floats in 0 to 1 or unsigned integers in LSB, row 0 on top.
+/// files by name; or a PNG. Depths and colours are floats in 0 to 1 or unsigned integers in LSB, row 0 on top. With the rule
+/// textbook the floats may lie outside of 0 to 1.
 /// A pixel is right if its depth and colour are within the tolerance: the proved bound of the machine's formats, unless given.
 #[derive(clap::Args)]
 #[command(after_help = "Examples:
@@ -130,7 +132,9 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
     let frame = source.whole(&machine)?;
     let size = (machine.width, machine.height);
     let bits = [args.depth_bits.unwrap_or(machine.z.bits), args.color_bits.unwrap_or(machine.color.bits)];
-    let picture = foreign::read(&args.pictures, size, bits)?;
+    let rule = rule(args, &machine)?;
+    let range = if rule == Rule::Textbook { Floats::Finite } else { Floats::InUnit };
+    let picture = foreign::read(&args.pictures, size, bits, range)?;
     let shaded = frame.shading.is_some() && args.color_lsb.is_none() && picture.rgb.is_some();
     ensure!(
         !shaded || args.against == Against::Machine,
@@ -144,7 +148,6 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
         Asked { bits: args.depth_bits, lsb: args.depth_lsb },
         Asked { bits: args.color_bits, lsb: args.color_lsb },
     );
-    let rule = rule(args, &machine)?;
     let judgement = match args.against {
         Against::Golden => outside::beside_golden(&machine, &frame, &picture, &tolerance, rule)?,
         Against::Machine => {
@@ -192,7 +195,7 @@ fn color(cause: u8) -> [u8; 3] {
         None => [0, 0, 0],
         Some(Cause::Missing) => [255, 0, 0],
         Some(Cause::Extra) => [255, 128, 0],
-        Some(Cause::Tie) => [0, 0, 160],
+        Some(Cause::Tie | Cause::Piece) => [0, 0, 160],
         Some(Cause::WrongWinner) => [255, 0, 255],
         Some(Cause::Depth) => [255, 255, 0],
         Some(Cause::Color) => [0, 255, 255],

@@ -22,6 +22,10 @@ pub struct Tally {
     pub wrapped: u64,
     /// Largest stored colour.
     most: f64,
+    /// The cleared colour.
+    clear: [f64; 3],
+    /// Some pass stores depths without colours.
+    depth_alone: bool,
     /// With DITHER.
     pattern: Option<Pattern>,
     /// Colours that DITHER makes of none within the bound at their pixels.
@@ -106,6 +110,11 @@ impl Tally {
             extra: (0..extra::channels(machine).len()).map(|own| errors(extra::BEFORE + own, 1.0)).collect(),
             wrapped: 0,
             most: machine.stored_color().max() as f64,
+            clear: frame.clear,
+            depth_alone: frame
+                .passes()
+                .iter()
+                .any(|pass| pass.state.stores_depth() && !pass.state.color_write),
             pattern: Pattern::of(machine, defects[1]),
             off_pattern: 0,
         }
@@ -153,21 +162,25 @@ impl Tally {
     }
 
     /// Whether pixel `i` has the cleared depth, to the nearest LSB the cleared colour, and 0 in the user's own channels.
-    pub fn is_background(&self, i: usize, clear: [f64; 3], drawn: &Raster) -> bool {
-        drawn.z[i] == 1.0 && self.is_clear(i, clear, drawn)
+    pub fn is_background(&self, i: usize, drawn: &Raster) -> bool {
+        drawn.z[i] == 1.0 && self.is_clear(i, drawn)
     }
 
-    /// Pixel `i` has a depth, but no colour: whether what else it has is that of the empty screen.
-    pub fn depth_only(&mut self, i: usize, z: f64, clear: [f64; 3], drawn: &Raster) -> bool {
-        self.depth(i, z, drawn);
-        self.is_clear(i, clear, drawn)
+    /// Like `is_background`, of a pixel without a colour in golden's picture. Where depths alone may be stored, the depth is
+    /// compared with golden's.
+    pub fn is_uncolored(&mut self, i: usize, golden: &Raster, drawn: &Raster) -> bool {
+        if !self.depth_alone || golden.coverage[i] == 0 {
+            return self.is_background(i, drawn);
+        }
+        self.depth(i, golden.z[i], drawn);
+        self.is_clear(i, drawn)
     }
 
-    fn is_clear(&self, i: usize, clear: [f64; 3], drawn: &Raster) -> bool {
+    fn is_clear(&self, i: usize, drawn: &Raster) -> bool {
         let half = 0.5 + 1e-9; // the division by 2^b - 1 rounds
         let near = |(exact, drawn): (f64, f64)| (exact - drawn).abs() * self.most <= half;
         let own = drawn.extra.iter().all(|values| values.at(i) == 0.0);
-        own && clear.into_iter().zip(drawn.rgb[i]).all(near)
+        own && self.clear.into_iter().zip(drawn.rgb[i]).all(near)
     }
 }
 

@@ -5,9 +5,11 @@
 
 use super::lit::{Lights, Seen, share_error};
 use super::order::apart;
+use crate::shaded::Spread;
 use edgewalk_golden::Step;
 use edgewalk_host::polygon::defects;
 use edgewalk_host::raster::golden_drawing;
+use edgewalk_host::shade::Proof;
 use edgewalk_machine::Plan;
 use edgewalk_numerics::blend_error_of_golden;
 use edgewalk_scene::{Blending, Frame};
@@ -25,6 +27,8 @@ pub struct Layers {
     pub last: Vec<Seen>,
     /// One of them may have several shares of its colour, an LSB or more apart.
     pub loose: Vec<bool>,
+    /// One of them may have one of several colours of SHADE, an LSB or more apart.
+    pub branches: Vec<bool>,
 }
 
 /// What was found of such a picture.
@@ -54,8 +58,14 @@ impl Blended {
 
 impl Layers {
     /// `None` where every pixel shows one fragment as it is, or as a light leaves it or takes it away. `lights`: of the frame, if any counts;
-    /// without them golden's shares of the colours are the only right ones.
-    pub fn of(machine: &Plan, frame: &Frame, mut lights: Option<&mut Lights>) -> Option<Layers> {
+    /// without them golden's shares of the colours are the only right ones. `proof`: of the colours of a frame that is shaded at each
+    /// pixel.
+    pub fn of(
+        machine: &Plan,
+        frame: &Frame,
+        mut lights: Option<&mut Lights>,
+        proof: Option<&Proof>,
+    ) -> Option<Layers> {
         let passes = frame.passes();
         let shares = lights.is_some() && machine.shadow.transmits();
         let mixes = passes[0].state.blend != Blending::Off && !machine.dither.drops();
@@ -69,9 +79,10 @@ impl Layers {
             stored: vec![0; pixels],
             last: vec![Seen::LIT; pixels],
             loose: vec![false; pixels],
+            branches: vec![false; pixels],
         };
         let width = frame.width as usize;
-        let (apart, errors) = (apart(machine, frame, None), Errors::of(machine, frame));
+        let (apart, errors) = (apart(machine, frame, None), Errors::of(machine, frame, proof));
         golden_drawing(frame, machine).watched(0..frame.height, |step| match step {
             Step::Tested { at, id, stored, gap } => {
                 let sure = apart.map(|apart| if stored < 0 { apart.cleared } else { apart.triangles });
@@ -86,8 +97,9 @@ impl Layers {
                     // Nothing is known of the map: what golden decides is right.
                     None => (Seen::of_share(share), share_error(machine, frame.shadow(light), share)),
                 };
-                let error = errors.front(own, share, &seen) + rounded;
+                let error = errors.front((at, id), own, share, &seen) + rounded;
                 layers.last[at] = seen;
+                layers.branches[at] |= errors.spread(at, id) > 1.0;
                 layers.loose[at] |= (seen.shares[1] - seen.shares[0]) * errors.max > 1.0;
                 layers.bound[at] = errors.behind(layers.bound[at], error, front, kt, back, blend);
             }
@@ -109,15 +121,17 @@ fn same_depth(frame: &Frame, id: i32, stored: i32) -> bool {
 pub struct Errors {
     /// LSB of 1.
     max: f64,
-    /// Of a fragment's colour, LSB.
+    /// Of a fragment's colour before SHADE, LSB.
     front: f64,
+    /// Of colours that are made at each pixel.
+    shaded: Option<Spread>,
     /// Of k_t.
     kt: f64,
 }
 
 impl Errors {
-    /// Of this machine, and of the polygons of the frame.
-    pub fn of(machine: &Plan, frame: &Frame) -> Errors {
+    /// Of this machine, and of the polygons of the frame; of a frame that is shaded at each pixel what is proved of its colours.
+    pub fn of(machine: &Plan, frame: &Frame, proof: Option<&Proof>) -> Errors {
         let defects = defects(frame, machine);
         let error = |place: usize| {
             let budget = machine.proved_budget(&machine.channels()[place]);
@@ -126,12 +140,20 @@ impl Errors {
         };
         let one = f64::from(1u32 << machine.blend.kt_bits);
         let kt = machine.channel_place("kt");
-        Errors { max: machine.color.max() as f64, front: error(1), kt: kt.map_or(0.5, error) / one }
+        let shaded = frame.shading.as_ref().zip(proof);
+        let shaded = shaded.map(|(shading, proof)| Spread::new(machine, frame, shading, proof));
+        Errors { max: machine.color.max() as f64, front: error(1), shaded, kt: kt.map_or(0.5, error) / one }
     }
 
-    /// Error of a fragment of this colour, 0 to 1, of which golden shows this share, LSB.
-    pub fn front(&self, own: [f64; 3], share: f64, seen: &Seen) -> f64 {
-        seen.front(self.front, own.into_iter().fold(0.0, f64::max), share, self.max)
+    /// How far the colours that SHADE may give this triangle at a pixel are from golden's, LSB, errors apart.
+    fn spread(&self, at: usize, id: i32) -> f64 {
+        self.shaded.as_ref().map_or(0.0, |shaded| shaded.at(at, id))
+    }
+
+    /// Error of the fragment of a triangle at a pixel, LSB: of this colour, 0 to 1, of which golden shows this share.
+    pub fn front(&self, (at, id): (usize, i32), own: [f64; 3], share: f64, seen: &Seen) -> f64 {
+        let before = self.shaded.as_ref().map_or(self.front, |shaded| shaded.bound(id) + shaded.at(at, id));
+        seen.front(before, own.into_iter().fold(0.0, f64::max), share, self.max)
     }
 
     /// The error of a pixel behind one more layer, LSB, whose own is `error`; colours in 0 to 1.

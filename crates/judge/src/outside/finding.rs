@@ -27,11 +27,13 @@ pub enum Cause {
     LayerMissing,
     /// The light is decided otherwise.
     Light,
+    /// The pixel is right for the pieces into which the machine's guard band cuts a triangle.
+    Piece,
 }
 
 impl Cause {
     /// All causes, in the order in which they are looked for.
-    pub const ALL: [Cause; 9] = [
+    pub const ALL: [Cause; 10] = [
         Cause::Missing,
         Cause::Extra,
         Cause::Tie,
@@ -41,6 +43,7 @@ impl Cause {
         Cause::Twice,
         Cause::LayerMissing,
         Cause::Light,
+        Cause::Piece,
     ];
 
     /// In words.
@@ -56,13 +59,14 @@ impl Cause {
             Cause::Twice => "covered more often",
             Cause::LayerMissing => "covered less often",
             Cause::Light => "light decided otherwise",
+            Cause::Piece => "right for a triangle cut at the guard band (allowed)",
         }
     }
 
-    /// Whether the pixel is wrong. A tie is not.
+    /// Whether the pixel is wrong. A tie is not, nor a triangle as the machine cuts it.
     #[must_use]
     pub fn is_wrong(self) -> bool {
-        self != Cause::Tie
+        !matches!(self, Cause::Tie | Cause::Piece)
     }
 }
 
@@ -122,6 +126,11 @@ impl Finding {
             Cause::Color => format!(": {kind} {triangle}: {color:.4} LSB off"),
             Cause::Twice | Cause::LayerMissing => {
                 self.coverage.map_or_else(String::new, |[reference, own]| format!(": {own} for {reference}"))
+            }
+            Cause::Piece => {
+                format!(
+                    ": {kind} {triangle}: depth {z:.4} and colour {color:.4} LSB off golden's of all of it"
+                )
             }
             Cause::Light => String::new(),
         };

@@ -70,19 +70,36 @@ impl Permitted {
     }
 }
 
+/// What the floats of an array may be.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Floats {
+    /// 0 to 1.
+    InUnit,
+    /// Any finite number: by the textbook rule a triangle covers centres beside it, where its plane leaves 0 to 1.
+    Finite,
+}
+
 /// Depths, or with `each` = 3 colours, of a picture with so many columns.
 ///
 /// # Errors
-/// The first that does not lie in 0 to 1, with its pixel.
-pub fn in_unit(values: Vec<f64>, columns: u32, each: usize) -> Result<Vec<f64>> {
-    let permitted = -ROUNDING..=1.0 + ROUNDING;
-    match values.iter().position(|value| !permitted.contains(value)) {
+/// The first that is not permitted, with its pixel.
+pub fn floats(values: Vec<f64>, of: Floats, columns: u32, each: usize) -> Result<Vec<f64>> {
+    let unit = -ROUNDING..=1.0 + ROUNDING;
+    let permitted = |value: &f64| match of {
+        Floats::InUnit => unit.contains(value),
+        Floats::Finite => value.is_finite(),
+    };
+    match values.iter().position(|value| !permitted(value)) {
         None => Ok(values),
         Some(place) => Err(anyhow!(
-            "{} in {}; permitted: floats in 0 to 1, or unsigned integers in LSB; divide by the value that stands for 1, or write \
+            "{} in {}; permitted: {}, or unsigned integers in LSB; divide by the value that stands for 1, or write \
              unsigned integers",
             values[place],
-            pixel(place / each, columns as usize)
+            pixel(place / each, columns as usize),
+            match of {
+                Floats::InUnit => "floats in 0 to 1",
+                Floats::Finite => "finite floats",
+            }
         )),
     }
 }

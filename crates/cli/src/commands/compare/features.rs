@@ -8,6 +8,7 @@
 //! ```
 
 mod page;
+mod page_file;
 mod text;
 
 use super::{Args, Asked, apart, drawn};
@@ -19,7 +20,7 @@ use crate::estimator::Estimator;
 use crate::kept;
 use crate::machine_args::{MachineArgs, no_needs};
 use crate::verdict::Verdict;
-use anyhow::{Context, Result, anyhow};
+use anyhow::{Result, anyhow};
 use edgewalk_explore::sweep::equation::{Distance, Equation, Measure};
 use edgewalk_files::Staging;
 use edgewalk_golden::Shading;
@@ -30,8 +31,9 @@ use edgewalk_judge::report::Report;
 use edgewalk_machine::Plan;
 use edgewalk_model::Waits;
 use edgewalk_synth::{Part, Target, memories};
+use edgewalk_tool::Stop;
+use page_file::PageFile;
 use serde_json::{Value, json};
-use std::path::Path;
 
 /// What a run may write.
 const FILES: [&str; 2] = ["features.json", "features.txt"];
@@ -126,6 +128,7 @@ impl Picture {
             "shading_mean": self.distance.map(|distance| distance.mean),
             "form_error": self.from_form.map(|distance| distance.largest),
             "form_mean": self.from_form.map(|distance| distance.mean),
+            "verdict": if self.verdict == Verdict::Mismatch { text::MISMATCH } else { "pass" },
         }))
     }
 }
@@ -163,6 +166,7 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
     let library = args.library.as_deref();
     let cells = args.energy.map(|_| CellEnergy::new(library, tools.cache(), tools.limit())).transpose()?;
     let out = Staging::new(&args.out)?;
+    let page = args.page.as_deref().map(|file| PageFile::new(file, (&args.out, &FILES))).transpose()?;
     let (mut machines, mut verdict, mut drawn) = (Vec::new(), Verdict::Pass, 0);
     for column in &columns {
         let mut cost = column.cost(synthesiser.as_ref())?;
@@ -176,12 +180,13 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
                     let told = picture.value()?;
                     told.as_object().into_iter().flatten().for_each(|(key, value)| row[key] = value.clone());
                     if let (Some(cells), Some(triangles)) = (&cells, args.energy) {
-                        row["energy"] = energy(
-                            cells,
-                            triangles,
-                            column,
-                            &Asked::new(&column.asked, input, args, machine)?,
-                        )?;
+                        let asked = Asked::new(&column.asked, input, args, machine)?;
+                        row["energy"] = match energy(cells, triangles, column, &asked) {
+                            Ok(energy) => energy,
+                            // A tool that is missing or fails ends the command.
+                            Err(why) if why.is::<Stop>() => return Err(why),
+                            Err(why) => json!({ "reason": format!("{why:#}") }),
+                        };
                     }
                 }
                 Err(why) => row["reason"] = format!("{why:#}").into(),
@@ -201,12 +206,10 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
         "machines": machines,
     });
     let (json, text) = (document("features", &told)?, text::text(&told));
-    if let Some(file) = &args.page {
-        write(file, &page::page(&told))?;
-    }
     out.write("features.json", &json)?;
     out.write("features.txt", &text)?;
     out.publish(&FILES)?;
+    page.map(|page| page.publish(&page::page(&told))).transpose()?;
     talk.say(|| Ok(json.clone()), || text.clone())?;
     Ok(verdict)
 }
@@ -222,11 +225,6 @@ fn energy(cells: &CellEnergy, triangles: u32, column: &Column, asked: &Asked) ->
     let port = to_port(&asked.input.first(&asked.plan, triangles as usize)?, &asked.plan)?;
     let drawing = Drawing { machine: &asked.plan, port: &port, cycles: CYCLES };
     Ok(serde_json::to_value(cells.measure(&drawing, None, &|| ())?)?)
-}
-
-/// Writes the page where it was asked for.
-fn write(file: &Path, page: &str) -> Result<()> {
-    std::fs::write(file, page).with_context(|| format!("--page {}", file.display()))
 }
 
 /// Draws an input on a machine, and compares it with the shading equation.
@@ -248,6 +246,9 @@ fn picture(column: &Column, input: &Input, args: &Args, machine: &MachineArgs) -
         Ok(())
     })?;
     let verdict = report.comparison.as_ref().map_or(Verdict::Vacuous, |found| found.verdict());
+    let drawn = &report.drawn;
+    let primitives = drawn.triangles + drawn.polygons + drawn.lines;
+    let verdict = verdict.or_nothing(input.name(), primitives, (asked.plan.width, asked.plan.height))?;
     let distance = measure.map(Measure::distance);
     // What shades at the corners draws the scene's own equation.
     let from_form = of_form.map(Measure::distance).or(distance);
@@ -271,5 +272,7 @@ fn shadowed(asked: &Asked, waits: Waits) -> Result<Picture> {
     });
     let maps = drawn.lights.iter().map(|light| light.cycles.total).sum();
     let report = Report::new(asked.input.name(), surface.triangles.len() as u64, &asked.plan, &drawn, waits);
-    Ok(Picture { report, maps, distance, from_form: distance, verdict: passes.verdict() })
+    let (triangles, size) = (surface.triangles.len() as u64, (asked.plan.width, asked.plan.height));
+    let verdict = passes.verdict().or_nothing(asked.input.name(), triangles, size)?;
+    Ok(Picture { report, maps, distance, from_form: distance, verdict })
 }

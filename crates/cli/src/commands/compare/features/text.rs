@@ -84,6 +84,11 @@ pub fn rows(told: &Value) -> Vec<Row> {
         ] {
             rows.push(row(format!("{input}: {name}"), &|_| Some(format!("/inputs/{number}/{key}"))));
         }
+        rows.push(row(format!("{input}: beside golden"), &|machine| {
+            let verdict = format!("/inputs/{number}/verdict");
+            // A picture that passes needs no word.
+            (machine.pointer(&verdict)? == MISMATCH).then_some(verdict)
+        }));
         for unit in energies(machines, number) {
             let place = |_: &Value| Some(format!("/inputs/{number}/energy/energy/units/{unit}"));
             rows.push(row(format!("{input}: energy, pJ of {unit}"), &place));
@@ -145,9 +150,13 @@ pub fn text(told: &Value) -> String {
     t + &words.concat() + NOTE
 }
 
+/// The verdict on a picture that differs from golden's beyond its bounds.
+pub const MISMATCH: &str = "mismatch";
+
 /// What the figures are.
 pub const NOTE: &str = "est_*: estimates on an iCE40, of each unit alone and of the machine whole; LUT4 of a preset lie within 1 % of the sum of its units.\n\
     Bits of memory: outside the machine.\n\
     Shading error: distance from the shading equation at each pixel, LSB of 8 bits; of shadows, from the equation with shadows by rays.\n\
     Error of the form: distance from the form of that equation that SHADE draws: highlights of N·H, in Phong a viewer far away.\n\
+    Beside golden: a mismatch is a picture that errs beyond its bounds; `edgewalk render` of that machine tells the errors.\n\
     Energy: of the first triangles, in cells for 0.18 um without wires; it compares machines, and is no promise of a chip.\n";
