@@ -197,3 +197,15 @@ fn a_design_that_does_not_fit_is_refused() {
         assert!(text.contains(said), "{to}: {text}");
     }
 }
+
+/// A parameter may be negative: the ports that Yosys tells are those of the simulator.
+#[test]
+fn a_parameter_may_be_negative() {
+    let folder = folder();
+    edit(folder.path(), "my_depth.v", "parameter QUEUE", "parameter LESS = 0, parameter QUEUE");
+    edit(folder.path(), "my_depth.v", "input  wire [31:0] f_z", "input  wire [32+LESS:0] f_z");
+    edit(folder.path(), "depth.toml", "QUEUE = 6", "QUEUE = 6\nLESS = -1");
+    let arguments = ["verify", "--dut", "depth.toml", "--simulator", "icarus", "--only", "flat_top"];
+    let (code, text) = told(&edgewalk(folder.path(), &arguments));
+    assert_eq!(code, Some(0), "{text}");
+}
