@@ -167,7 +167,8 @@ fn ours(args: &Args, machine: &Plan, suites: Vec<Suite>, talk: Talk) -> Result<V
             let folder = write(directory(suite, &trace, &verilog, Tables::LeftOut))?;
             for simulator in simulators {
                 let due = Due { tokens: trace.tokens_out(), all: trace.expected() };
-                checks.push(in_simulator(*simulator, folder.path(), limit, suite, *unit, due)?);
+                let check = in_simulator(*simulator, folder.path(), limit, suite, *unit, due);
+                checks.push(check.context("a simulator did not do its work; --no-simulators goes without")?);
             }
         }
         Ok((checks, (*unit, reached(&trace))))
@@ -231,7 +232,7 @@ fn in_simulator(
 ) -> Result<Check> {
     let work = Scratch::temporary()?;
     let outcome = simulate(simulator, folder, work.path(), limit)
-        .with_context(|| format!("{} {} (--no-simulators goes without)", suite.name, unit.name()))?;
+        .with_context(|| format!("{} {}", suite.name, unit.name()))?;
     let (checked, difference, met) = match outcome {
         Outcome::Pass { checked, met } => (checked, None, met),
         Outcome::Mismatch { checked, lines, .. } => (checked, Some(lines.join("\n      ")), BTreeMap::new()),
