@@ -27,6 +27,7 @@ use serde::Serialize;
 use serde_json::json;
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
+use std::io::Write as _;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
@@ -204,11 +205,9 @@ fn against_netlist(netlist: &Netlist, suite: &Suite, trace: &Trace, out: &Path) 
 fn write(files: Files) -> Result<Scratch> {
     let folder = Scratch::temporary()?;
     for (name, contents) in files {
-        let path = folder.path().join(name);
-        if let Some(parent) = path.parent() {
-            std::fs::create_dir_all(parent)?;
-        }
-        std::fs::write(&path, contents).with_context(|| path.display().to_string())?;
+        let name = Path::new(&name);
+        let written = folder.create(name).and_then(|mut file| file.write_all(&contents));
+        written.with_context(|| folder.path().join(name).display().to_string())?;
     }
     Ok(folder)
 }
