@@ -12,6 +12,7 @@ class Fault(AssertionError):
 
 
 SHOWN = 5  # faults of a channel that are told
+OTHER = "a token of the first run is not the next one"
 
 
 class Source:
@@ -89,15 +90,17 @@ class Sink:
         self.name, self.channel, self.willing = channel["name"], channel, pattern
         self.fields = [field for field in channel["fields"] if field["port"] not in absent]
         self.wanted = directory.numbers(channel["tokens"])
-        self.cycles = directory.steps(channel["moved"]) if by_cycle else None
+        self.cycles = directory.steps(channel["moved"]) if by_cycle and not shy else None
         triangles = channel["triangles"]
         self.triangles = directory.steps(triangles) if triangles else None
         self.directory, self.came, self.faults, self.offers = directory, 0, [], Offered()
         self.always = f"{self.name}_ready" in absent
         self.shy, self.waits, self.offered = shy and not self.always, False, False
+        self.stands, self.ahead, self.early = False, False, None
 
-    def drive(self, cycle, inputs):
-        self.ready = self.always or willing(self.willing, cycle) and (not self.shy or self.waits)
+    def drive(self, cycle, inputs, keep):
+        wants = willing(self.willing, cycle) and not keep and (not self.shy or self.waits)
+        self.ready = self.always or wants
         inputs[f"{self.name}_ready"] = int(self.ready)
 
     def sample(self, cycle, outputs, moved):
@@ -105,12 +108,17 @@ class Sink:
         token = {field["port"]: outputs[field["port"]] for field in self.fields}
         # An unknown valid is taken for one.
         self.waits, self.offered = valid != 0 and not self.ready, self.offered or valid != 0
+        self.stands = valid == 1 and not self.ready
+        self.ahead = self.ahead or valid != 0 and (self.came > 0 or len(self.wanted) == 1)
         if self.offers.broken(valid, token, self.ready):
             self.faults.append(f"{self.name}: cycle {cycle}: the token changed, or valid fell, before it was taken")
+        if valid is None:
+            self.found_early(f"{self.name}_valid was unknown in the first run")
         if valid == 0 or not self.ready:
             return
         if self.came == len(self.wanted):
             self.faults.append(f"{self.name}: cycle {cycle}: one more than the {self.came} expected")
+            self.found_early(OTHER)
             return
         if valid is None:
             self.faults.append(f"{self.where(cycle)}: {self.name}_valid: unknown bits")
@@ -118,6 +126,7 @@ class Sink:
         for field in self.fields:
             wanted, found = want >> field["lsb"] & (1 << field["width"]) - 1, token[field["port"]]
             if found != wanted:
+                self.found_early(OTHER)
                 shown = "unknown bits" if found is None else f"{found:x}"
                 self.faults.append(f"{self.where(cycle)}: {field['port']}: expected {wanted:x}, found {shown}")
         if self.cycles is not None and cycle != self.cycles[self.came]:
@@ -125,6 +134,10 @@ class Sink:
         # The memories go on with what ought to have come, so that one fault is not followed by many.
         moved[self.name] = parts(self.channel["fields"], want)
         self.came += 1
+
+    def found_early(self, what):
+        """Keeps the first fault that counts in a first run: there cycles do not."""
+        self.early = self.early or f"{self.name}: {what}: does the reset reach {self.name}_valid?"
 
     def where(self, cycle):
         text = f"{self.name}: token {self.came}"
@@ -165,7 +178,8 @@ class Bench:
     `drive()` returns the inputs of a cycle, `sample(outputs)` takes its outputs and says whether the run goes on, and
     `finish()` raises `Fault` unless everything expected came, as expected, and nothing else. Names are the unit's;
     `outputs` are those that are sampled. `absent` are ports that the design has not got, and `compare` is "cycle" or
-    "order". A `shy` bench takes only tokens that it has seen waiting, and compares nothing.
+    "order". A `shy` bench is that of the first run: it takes only tokens that it has seen waiting, and none from when each
+    channel out has offered a second one. Cycles do not count in it.
     """
 
     def __init__(self, directory, absent=(), compare=None, shy=False):
@@ -197,7 +211,8 @@ class Bench:
         self.during = status["during"]
         changes = zip(directory.steps(status["moved"]), directory.numbers(status["tokens"]))
         self.changes = list(changes) if by_cycle else []
-        self.seen, self.status_faults, self.shown, self.stuck = 0, [], None, []
+        self.seen, self.status_faults, self.shown = 0, [], None
+        self.shy, self.stuck, self.early = shy, [], []
         self.cycle, self.quiet = 0, 0
         self.expected = len(self.changes) + sum(len(sink.wanted) for sink in self.sinks)
 
@@ -212,8 +227,11 @@ class Bench:
     def drive(self):
         """The inputs of the next cycle, all of them but clock and reset."""
         inputs = dict(self.constants)
-        for end in [*self.sources.values(), *self.memories, *self.sinks]:
+        for end in [*self.sources.values(), *self.memories]:
             end.drive(self.cycle, inputs)
+        keep = self.shy and self.all_ahead()
+        for sink in self.sinks:
+            sink.drive(self.cycle, inputs, keep)
         for level in self.levels:
             source = self.sources[level["while_tokens_of"]]
             more = source.sent < len(source.tokens)
@@ -257,9 +275,18 @@ class Bench:
         self.seen += wanted is not None
         return True
 
-    def all_offered(self):
-        """Whether each channel out has offered a token, or has none."""
-        return all(sink.offered or not sink.wanted for sink in self.sinks)
+    def all_ahead(self):
+        """Whether each channel out has offered a second token, or has no more than it offered."""
+        return all(sink.ahead or not sink.wanted for sink in self.sinks)
+
+    def may_end(self):
+        """Whether a first run may end: on each channel out that can be made to wait a token waits."""
+        waits = all(sink.stands or sink.always or not sink.wanted for sink in self.sinks)
+        return self.all_ahead() and waits
+
+    def found_early(self):
+        """What is wrong in a first run."""
+        return [sink.early for sink in self.sinks if sink.early]
 
     def silent(self):
         """Channels out that never offered a token, though nothing happened any more."""
@@ -287,6 +314,7 @@ class Bench:
                 told.append(f"{sink.where(self.cycle)}: never came, the first of {missing}")
         for held in self.held:
             told += held.faults[:SHOWN]
+        told += self.early
         if self.expected == 0 or not any(sink.wanted for sink in self.sinks):
             told.append("nothing was compared")
         if self.checked != self.expected:

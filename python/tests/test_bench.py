@@ -7,7 +7,7 @@ import pytest
 from conftest import SMALL
 
 from edgewalk_vectors import Bench, Directory, Fault, VectorsError
-from edgewalk_vectors.bench import Held
+from edgewalk_vectors.bench import Held, parts
 
 UNITS = ["machine", "setup", "edge", "span", "pixel", "depth"]
 
@@ -268,7 +268,7 @@ def shy_run(directory, design, spoil=None):
     """The first run of `replay`: whether no ready came before its valid, and the channels that stayed silent."""
     bench, seen, early, cycle = Bench(Directory(directory), shy=True), set(), [], 0
     going = True
-    while going and not bench.all_offered():
+    while going and not bench.may_end():
         inputs = bench.drive()
         outputs = design.outputs(cycle)
         if spoil:
@@ -285,6 +285,43 @@ def shy_run(directory, design, spoil=None):
 def test_first_run_takes_only_what_waits(vectors, player, unit):
     of_unit, folder = vectors(unit)
     assert shy_run(folder, player(of_unit)) == ([], [])
+
+
+def eager_run(folder, spoil):
+    """The first run of a design that offers its tokens at once: the bench behind it, and how many cycles it took."""
+    bench, cycle = Bench(Directory(folder), shy=True), 0
+    going = True
+    while going and not bench.may_end():
+        inputs, outputs = bench.drive(), dict.fromkeys(bench.outputs, 0)
+        outputs.update({f"{name}_ready": 1 for name in bench.sources})
+        for sink in bench.sinks:
+            outputs[f"{sink.name}_valid"] = int(sink.came < len(sink.wanted))
+            outputs.update(parts(sink.fields, sink.wanted[min(sink.came, len(sink.wanted) - 1)]))
+        spoil(cycle, outputs)
+        going = bench.sample(outputs)
+        cycle += 1
+    waiting = {sink.name: inputs[f"{sink.name}_ready"] for sink in bench.sinks}
+    return bench, cycle, waiting
+
+
+def test_first_run_ends_where_a_second_token_waits(vectors):
+    bench, cycle, waiting = eager_run(vectors("depth")[1], lambda cycle, outputs: None)
+    assert bench.found_early() == bench.silent() == [] and 2 < cycle < 200
+    assert waiting == {"rd": 0, "wr": 0} and all(sink.came for sink in bench.sinks)
+
+
+@pytest.mark.parametrize("change, said", [
+    ({"wr_valid": None}, "wr: wr_valid was unknown in the first run: does the reset reach wr_valid?"),
+    ({"wr_addr": 0x2a5}, "wr: a token of the first run is not the next one: does the reset reach wr_valid?"),
+])
+def test_valid_that_no_reset_reaches_fails(vectors, change, said):
+    folder = vectors("depth")[1]
+    early = eager_run(folder, lambda cycle, outputs: outputs.update(change))[0].found_early()
+    assert early == [said]
+    bench = Bench(Directory(folder))
+    bench.early = early
+    with pytest.raises(Fault, match=re.escape(said)):
+        bench.finish()
 
 
 def test_valid_that_waits_for_ready_fails(vectors, player):

@@ -17,7 +17,7 @@ pub fn exit_code(verdict: Verdict) -> u8 {
 pub fn of_error(error: &anyhow::Error) -> u8 {
     let of_simulator = error.downcast_ref::<SimulateError>().and_then(|error| match error {
         SimulateError::Tool(stop) => Some(stop),
-        SimulateError::Read(_) => None,
+        SimulateError::Read(_) | SimulateError::Design { .. } => None,
     });
     match of_simulator.or_else(|| error.downcast_ref::<Stop>()) {
         Some(Stop::TimeLimit { .. }) => 4,

@@ -168,7 +168,12 @@ fn what_the_machine_cannot_do_is_said() {
         ),
         (&file("blend 2"), "raster", &constant, &["blend: `2`", "0 1 add"]),
         (&file("blend 1").replace("0.25", "1.25"), "raster", &constant, &["vertex 2 kt", "`1.25`"]),
-        (&two, "trace", &[], &["2 passes", "raster, render, explain, replay, sweep, compare and size"]),
+        (
+            &two,
+            "trace",
+            &[],
+            &["2 passes", "raster, render, explain, replay, sweep, compare, size, judge and triangles"],
+        ),
         (
             &file(""),
             "raster",

@@ -17,5 +17,5 @@ pub mod foreign;
 
 pub use array::Array;
 pub use picture::Png;
-pub use scratch::{Scratch, watch_signals};
+pub use scratch::{Scratch, undisturbed, watch_signals};
 pub use staging::Staging;

@@ -11,6 +11,7 @@ use std::fs::{self, File};
 use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::{PoisonError, RwLock, RwLockReadGuard, RwLockWriteGuard};
+use std::time::Duration;
 
 /// Folders to remove: scratch folders with all that is in them, and those that were made for them if they are empty.
 static LIVE: RwLock<Vec<Leftover>> = RwLock::new(Vec::new());
@@ -81,11 +82,12 @@ impl Drop for Scratch {
 
 impl Leftover {
     fn remove(&self) {
-        // A tool that is being ended may write between the listing and the removal.
-        for _ in 0..3 {
-            if fs::remove_dir_all(&self.scratch).is_ok() {
+        // A tool that is being ended, or a thread of the program, may write between the listing and the removal.
+        for _ in 0..20 {
+            if fs::remove_dir_all(&self.scratch).is_ok() || !self.scratch.exists() {
                 break;
             }
+            std::thread::sleep(Duration::from_millis(10));
         }
         remove_empty(&self.made);
     }

@@ -14,6 +14,10 @@ use edgewalk_scene::{
 };
 use std::borrow::Cow;
 
+/// The commands that take a frame with rules that change between triangles, and a light's map.
+const TAKE_ALL: &str = "raster, render, explain, replay, sweep, compare, size, judge";
+const LAST_OF_THEM: &str = "triangles";
+
 /// A frame as the machine's port takes it.
 pub struct PortFrame {
     /// Triangles, lines and parts of polygons in drawing order, each a token.
@@ -91,7 +95,7 @@ impl PortFrame {
     pub fn state(&self) -> Result<DrawState> {
         if !self.lights.is_empty() {
             return Err(anyhow!(
-                "shadow: a light's map; permitted for raster, render, explain, replay, sweep, compare, size, vectors and verify"
+                "shadow: a light's map; permitted for {TAKE_ALL}, {LAST_OF_THEM}, vectors and verify"
             ));
         }
         self.one_state()
@@ -105,7 +109,7 @@ impl PortFrame {
         match &self.passes[..] {
             [pass] => Ok(pass.state),
             passes => Err(anyhow!(
-                "{} passes: the rules change between triangles; permitted for raster, render, explain, replay, sweep, compare and size",
+                "{} passes: the rules change between triangles; permitted for {TAKE_ALL} and {LAST_OF_THEM}",
                 passes.len()
             )),
         }

@@ -288,7 +288,7 @@ struct Guard {
     line: (&'static str, &'static str, &'static str),
 }
 
-const GUARDS: [Guard; 7] = [
+const GUARDS: [Guard; 9] = [
     Guard {
         name: "outputs are missing",
         unit: common::DEPTH,
@@ -335,17 +335,7 @@ const GUARDS: [Guard; 7] = [
         name: "a valid is unknown",
         unit: common::PIXEL,
         arguments: &["CHECK_CYCLES=0"],
-        wrong: |place| {
-            let sure = place.text(&place.own).replace("frag_valid", "sure");
-            let port = "output reg         sure,";
-            assert!(sure.contains(port));
-            let sure = sure.replace(port, "output wire frag_valid,").replacen(
-                ");\n",
-                ");\n  reg sure;\n  assign frag_valid = sure && (frag_addr[0] ? 1'bx : 1'b1);\n",
-                1,
-            );
-            std::fs::write(place.file(&place.own), sure).expect("written");
-        },
+        wrong: |place| unsure(place, "tb.compared"),
         line: ("bench_sink.v", "(fire === 1'bx || ^data === 1'bx)", "(^data === 1'bx)"),
     },
     Guard {
@@ -373,6 +363,20 @@ const GUARDS: [Guard; 7] = [
         line: ("bench_sink.v", "(fire === 1'bx || ^data === 1'bx)", "(fire === 1'bx)"),
     },
     Guard {
+        name: "a valid is unknown in the first run",
+        unit: common::PIXEL,
+        arguments: &[],
+        wrong: |place| unsure(place, "!tb.compared"),
+        line: ("tb.v", " + (frag_early != 0 ? 1 : 0)", ""),
+    },
+    Guard {
+        name: "a valid keeps its token in the second reset",
+        unit: common::DEPTH,
+        arguments: &[],
+        wrong: |place| keeps_its_write(place),
+        line: ("bench_taker.v", " && !rst && !keep", " && !keep"),
+    },
+    Guard {
         name: "a file of vectors is not the one that was written",
         unit: common::DEPTH,
         arguments: &[],
@@ -380,6 +384,27 @@ const GUARDS: [Guard; 7] = [
         line: ("Makefile", "icarus: check", "icarus:"),
     },
 ];
+
+/// PIXEL whose valid is unknown for half of its tokens while a condition holds.
+fn unsure(place: &Place, when: &str) {
+    let sure = place.text(&place.own).replace("frag_valid", "sure");
+    let port = "output reg         sure,";
+    assert!(sure.contains(port));
+    let valid = format!("sure && (frag_addr[0] && {when} ? 1'bx : 1'b1)");
+    let own = format!(");\n  reg sure;\n  assign frag_valid = {valid};\n");
+    let sure = sure.replace(port, "output wire frag_valid,").replacen(");\n", &own, 1);
+    std::fs::write(place.file(&place.own), sure).expect("written");
+}
+
+/// DEPTH whose output register no reset reaches.
+fn keeps_its_write(place: &Place) {
+    place.exchange(
+        &place.own,
+        "    if (rst) begin\n      wr_valid <= 1'b0;\n    end else begin\n",
+        "    begin\n",
+    );
+    place.exchange(&place.own, "wr_valid, ", "wr_valid = 1'b0, ");
+}
 
 /// DEPTH that never reads.
 fn silent(place: &Place) {

@@ -52,6 +52,29 @@ fn registers_that_need_their_start_are_found_by_a_seed() {
     }
 }
 
+/// A register of an output that no reset reaches keeps its token through a reset in which nobody takes it. One that takes
+/// ready for a way out would be emptied by a bench that is ready during a reset.
+#[test]
+fn a_valid_that_no_reset_reaches_is_found() {
+    let machine = small();
+    let suite = Suite::named(&machine, "hazards", 0, 0).expect("listed");
+    let trace = capture(&machine, common::DEPTH, &suite, suite.state, StallKind::Mixed);
+    let verilog = design::verilog(&machine, common::DEPTH).expect("a checked machine");
+    let reset = "    if (rst) begin\n      wr_valid <= 1'b0;\n    end else begin\n";
+    for (start, simulator) in [("", "icarus"), (" = 1'b0", "icarus"), (" = 1'b0", "verilator")] {
+        let folder = tempfile::tempdir().expect("a folder");
+        write(&directory(&suite, &trace, &verilog, Tables::LeftOut), folder.path());
+        let path = folder.path().join("hdl").join(&verilog[0].0);
+        let text = std::fs::read_to_string(&path).expect("the design");
+        assert!(text.contains(reset) && text.contains("wr_valid, "));
+        let without =
+            text.replacen(reset, "    begin\n", 1).replacen("wr_valid, ", &format!("wr_valid{start}, "), 1);
+        std::fs::write(&path, without).expect("written");
+        let (passed, said) = made(folder.path(), &[simulator]);
+        assert!(!passed && said.lines().any(|line| line == "FAIL"), "{simulator}, `{start}`: {said}");
+    }
+}
+
 /// Every kind of machine with many seeds, not part of the test run:
 /// `cargo test --release -p edgewalk-vectors power_up:: -- --ignored --nocapture`
 #[test]

@@ -49,9 +49,9 @@ fn passes(simulator: Simulator, files: &Files) -> u64 {
     // Tools must cope with a path that has a space in it.
     let vectors = place.path().join("the vectors");
     write(files, &vectors);
-    let outcome = simulate(simulator, &vectors, &place.path().join("work"), LIMIT);
+    let outcome = simulate(simulator, &vectors, place.path(), LIMIT);
     if simulator == Simulator::Verilator {
-        assert_eq!(objects(&place.path().join("work/obj_dir")), ["Vtb__ALL.o"], "of one file of C++");
+        assert_eq!(objects(&place.path().join("obj_dir")), ["Vtb__ALL.o"], "of one file of C++");
     }
     match outcome {
         Ok(Outcome::Pass { checked, .. }) => checked,
@@ -439,7 +439,7 @@ fn faulty(cases: usize, from: &str, to: &str) -> Outcome {
     design[0].1 = design[0].1.replacen(from, to, 1);
     let place = tempfile::tempdir().expect("a directory");
     write(&directory(&suite, &trace, &design, Tables::LeftOut), place.path());
-    simulate(Simulator::Icarus, place.path(), &place.path().join("work"), LIMIT).expect("Icarus runs")
+    simulate(Simulator::Icarus, place.path(), place.path(), LIMIT).expect("Icarus runs")
 }
 
 #[test]
@@ -478,7 +478,10 @@ fn less_than_the_manifest_expects_is_no_pass() {
     *json = serde_json::to_vec(&manifest).expect("JSON");
     let place = tempfile::tempdir().expect("a directory");
     write(&files, place.path());
-    let outcome = simulate(Simulator::Icarus, place.path(), &place.path().join("work"), LIMIT);
+    // A work folder that a signal has removed does not come again.
+    let gone = place.path().join("gone");
+    assert!(simulate(Simulator::Icarus, place.path(), &gone, LIMIT).is_err() && !gone.exists());
+    let outcome = simulate(Simulator::Icarus, place.path(), place.path(), LIMIT);
     match outcome.expect("Icarus runs") {
         Outcome::Mismatch { checked, expected: wanted, .. } => {
             assert_eq!((checked, wanted), (expected, expected + 1))

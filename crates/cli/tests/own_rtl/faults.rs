@@ -128,6 +128,26 @@ fn a_register_without_a_reset_fails_in_verilator() {
     assert!(code == Some(1) && text.contains("frag_z: expected "), "{text}");
 }
 
+/// An output whose valid no reset reaches: its token of before the reset counts. Where the valid begins with 0, only a reset
+/// with a waiting token shows it.
+#[test]
+fn a_valid_that_no_reset_reaches_fails() {
+    for (starts, simulator, said) in [
+        ("", "icarus", "wr: wr_valid was unknown in the first run: does the reset reach wr_valid?"),
+        (" = 1'b0", "icarus", "wr: "),
+        (" = 1'b0", "verilator", "wr: "),
+        (" = 1'b1", "verilator", "wr: a token of the first run is not the next one"),
+    ] {
+        let folder = folder();
+        edit(folder.path(), "my_depth.v", "      w_valid <= 1'b0;\n    end", "    end");
+        let declared = format!("output reg         w_valid{starts},");
+        edit(folder.path(), "my_depth.v", "output reg         w_valid,", &declared);
+        let arguments = ["verify", "--dut", "depth.toml", "--simulator", simulator, "--only", "flat_top"];
+        let (code, text) = told(&edgewalk(folder.path(), &arguments));
+        assert!(code == Some(1) && text.contains(said), "{simulator}, `{starts}`: {text}");
+    }
+}
+
 /// Not part of the test run: a dozen builds. `cargo test --release -p edgewalk-cli own_rtl:: -- --ignored`
 #[test]
 #[ignore = "three minutes"]

@@ -197,3 +197,42 @@ fn a_design_that_does_not_fit_is_refused() {
         assert!(text.contains(said), "{to}: {text}");
     }
 }
+
+/// What only a simulator finds in a design is the design's fault too, and --no-simulators is no way around it.
+#[test]
+fn a_design_that_a_simulator_refuses_is_no_missing_tool() {
+    let unchecked = ("depth.toml", "widths = \"extend\"", "widths = \"unchecked\"");
+    let unbound = ("my_depth.v", "endmodule", "reg q; initial q = undefined_thing;\nendmodule");
+    let typed = ("my_depth.v", "input  wire [23:0] f_rgb", "input  pk::rgb_t f_rgb");
+    for (simulator, edits, said) in [
+        ("icarus", vec![unchecked], "port f_z of my_depth: found 32 bits, needed 24"),
+        ("icarus", vec![unbound], "undefined_thing"),
+        (
+            "icarus",
+            vec![unchecked, typed],
+            "icarus does not run the design; correct its files or its description:",
+        ),
+        ("verilator", vec![unchecked, typed], "verilator does not run the design"),
+    ] {
+        let folder = folder();
+        for (file, from, to) in edits {
+            edit(folder.path(), file, from, to);
+        }
+        let arguments = ["verify", "--dut", "depth.toml", "--simulator", simulator, "--only", "flat_top"];
+        let (code, text) = told(&edgewalk(folder.path(), &arguments));
+        assert_eq!(code, Some(2), "{said}: {text}");
+        assert!(text.contains(said) && !text.contains("no-simulators"), "{said}: {text}");
+    }
+}
+
+/// A parameter may be negative: the ports that Yosys tells are those of the simulator.
+#[test]
+fn a_parameter_may_be_negative() {
+    let folder = folder();
+    edit(folder.path(), "my_depth.v", "parameter QUEUE", "parameter LESS = 0, parameter QUEUE");
+    edit(folder.path(), "my_depth.v", "input  wire [31:0] f_z", "input  wire [32+LESS:0] f_z");
+    edit(folder.path(), "depth.toml", "QUEUE = 6", "QUEUE = 6\nLESS = -1");
+    let arguments = ["verify", "--dut", "depth.toml", "--simulator", "icarus", "--only", "flat_top"];
+    let (code, text) = told(&edgewalk(folder.path(), &arguments));
+    assert_eq!(code, Some(0), "{text}");
+}

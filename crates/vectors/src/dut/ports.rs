@@ -71,6 +71,13 @@ pub fn ports(dut: &Dut, work: &Path, limit: Duration) -> Result<Option<BTreeMap<
     }
     script += &format!("; proc; write_json {MODULES}; ");
     for (name, value) in &dut.parameters {
+        // Yosys takes no sign.
+        let bits = value
+            .parse::<i32>()
+            .ok()
+            .filter(|number| *number < 0)
+            .map(|number| format!("32'd{}", number as u32));
+        let value = bits.as_ref().unwrap_or(value);
         script += &format!("chparam -set {name} {value} {}; ", dut.top);
     }
     script += &format!("hierarchy -top {}; proc; write_json {TOP}", dut.top);

@@ -65,12 +65,21 @@ pub enum SimulateError {
     /// The directory is not what its manifest says.
     #[error(transparent)]
     Read(#[from] ReadError),
+    /// The simulator refuses a user's design, or the design ends the run.
+    #[error("{simulator} does not run the design; correct its files or its description:\n{}", lines.join("\n"))]
+    Design {
+        /// The simulator.
+        simulator: &'static str,
+        /// What it said first.
+        lines: Vec<String>,
+    },
     /// A tool is missing or broken, or took too long.
     #[error(transparent)]
     Tool(#[from] Stop),
 }
 
-/// Runs the test bench of a directory, after checking that its files are those that were written.
+/// Runs the test bench of a directory, after checking that its files are those that were written. `work` is a folder that
+/// is there, for what the tools write.
 ///
 /// # Errors
 /// A changed directory; a tool that is missing, refuses the design, or exceeds the limit (for each of its two steps).
@@ -83,15 +92,41 @@ pub fn simulate(
     let manifest = read(|name| std::fs::read(directory.join(name)))?.manifest;
     // The tools run inside the directory, so their output needs a full path.
     let work = std::path::absolute(work).map_err(|error| Stop::broken("the work directory", &error))?;
-    std::fs::create_dir_all(&work).map_err(|error| Stop::broken("the work directory", &error))?;
-    let text = match simulator {
+    printed(simulator, &manifest, directory, &work, limit)
+        .and_then(|text| {
+            let none =
+                || Stop::Broken { tool: simulator.name().to_owned(), lines: first_lines(text.lines()) };
+            verdict(&manifest, &text).ok_or_else(none)
+        })
+        .map_err(|stop| match stop {
+            Stop::Broken { lines, .. } if manifest.dut.is_some() && !compiler_failed(&lines) => {
+                SimulateError::Design { simulator: simulator.name(), lines }
+            }
+            stop => stop.into(),
+        })
+}
+
+/// Whether what Verilator said is of the build of its C++, with which the design has nothing to do.
+fn compiler_failed(lines: &[String]) -> bool {
+    lines.iter().any(|line| line.starts_with("make") || line.starts_with("%Error: make"))
+}
+
+/// What the test bench and the tools print.
+fn printed(
+    simulator: Simulator,
+    manifest: &Manifest,
+    directory: &Path,
+    work: &Path,
+    limit: Duration,
+) -> Result<String, Stop> {
+    match simulator {
         Simulator::Icarus => {
             let program = work.join("tb.vvp");
             let mut compile = Command::new("iverilog");
-            compile.arg(format!("-g{}", standard(&manifest)));
+            compile.arg(format!("-g{}", standard(manifest)));
             compile.args(["-s", "tb", "-c", "filelist.f", "-o"]).arg(&program);
             run(compile.current_dir(directory), limit)?;
-            run(Command::new("vvp").arg("-n").arg(&program).current_dir(directory), limit)?
+            run(Command::new("vvp").arg("-n").arg(&program).current_dir(directory), limit)
         }
         Simulator::Verilator => {
             let objects = work.join("obj_dir");
@@ -112,13 +147,9 @@ pub fn simulate(
             // Verilator has no unknown bits: what has no start value begins with random ones.
             let mut program = Command::new(objects.join("Vtb"));
             program.args(["+verilator+rand+reset+2", "+verilator+seed+1"]);
-            run(program.current_dir(directory), limit)?
+            run(program.current_dir(directory), limit)
         }
-    };
-    Ok(verdict(&manifest, &text).ok_or_else(|| Stop::Broken {
-        tool: simulator.name().to_owned(),
-        lines: first_lines(text.lines()),
-    })?)
+    }
 }
 
 /// The year of the language's standard that the design needs.

@@ -120,7 +120,7 @@ fn handshake(interface: &Interface, wiring: Option<&Wiring>) -> Handshake {
         reset,
         cycle_zero: "the first cycle with rst low".to_owned(),
         rules: [
-            "a valid does not wait for its ready: tb.v has a first run, not compared, in which ready follows valid".to_owned(),
+            "a valid does not wait for its ready: tb.v has a first run, its cycles not compared, in which ready follows valid".to_owned(),
             "the bench first offers a token in a cycle whose pattern is 1, and holds it until it is taken".to_owned(),
             "the bench takes a token in the cycles whose pattern is 1".to_owned(),
             "fields count only while valid is high".to_owned(),

@@ -127,12 +127,14 @@ module tb;
 `include "cases.vh"
 
     // {clocks} of reset; cycle 0 is the first without. A first run, in which no ready comes before its valid, ends with a
-    // second reset when each channel out has offered a token. The run behind it is the one that is compared.
+    // second reset. From when each channel out has offered a second token, no more is taken: the first would not be told from
+    // that of the run behind the reset. The reset comes when on each a token waits, or nothing happens any more. Of the
+    // first run only order and values of the tokens count.
     reg        clk = 1'b0;
     {counter}
     reg        compared = 1'b0;
     wire       rst = resets != 0;
-    wire       first_ends;
+    wire       first_ends, all_ahead;
     reg [31:0] cycle = 0;
     always #5 clk = !clk;
     always @(posedge clk)
@@ -197,10 +199,10 @@ const SOURCE: &str = r#"    wire {name}_more;
 const SINK: &str = r#"    wire [31:0] {name}_checked, {name}_wrong, {name}_due;
     wire [2:0]  {name}_fault;
     wire [{NAME}_WIDTH-1:0] {name}_want;
-    wire {name}_offered;
-    bench_taker {name}_taker (
-        .clk(clk), .rst(rst), .shy({shy}), .willing({willing}),
-        .valid({name}_valid), .ready({name}_ready), .offered({name}_offered)
+    wire {name}_offered, {name}_ahead;
+    bench_taker #(.COUNT({NAME}_COUNT)) {name}_taker (
+        .clk(clk), .rst(rst), .shy({shy}), .keep(all_ahead && !compared), .willing({willing}),
+        .valid({name}_valid), .ready({name}_ready), .offered({name}_offered), .ahead({name}_ahead)
     );
     assign {name}_fire  = !rst && {name}_valid && {name}_ready;
     bench_sink #(
@@ -210,6 +212,11 @@ const SINK: &str = r#"    wire [31:0] {name}_checked, {name}_wrong, {name}_due;
         .clk(clk), .rst(rst), .cycle(cycle), .fire({name}_fire), .data({name}_token),
         .checked({name}_checked), .wrong({name}_wrong), .fault({name}_fault), .want({name}_want), .due({name}_due)
     );
+    reg [1:0] {name}_early = 2'd0; // in the first run: 1 an unknown valid, 2 a token that is not the next one
+    always @(posedge clk)
+        if (!rst && !compared && {name}_early == 0)
+            if ({name}_valid !== 1'b0 && {name}_valid !== 1'b1) {name}_early <= 2'd1;
+            else if ({name}_fault != 0 && {name}_fault != 4) {name}_early <= 2'd2;
 "#;
 
 /// The memory whose words are this link.
@@ -313,7 +320,7 @@ fn end_section(
     let counts =
         out.iter().map(|name| format!("{}_COUNT", name.to_uppercase())).collect::<Vec<_>>().join(" + ");
     let fires: Vec<String> = interface.links.iter().map(|link| format!("{}_fire", link.name)).collect();
-    let every = out.iter().map(|name| format!("({name}_offered || {}_COUNT == 0)", name.to_uppercase()));
+    let every = out.iter().map(|name| format!("({name}_ahead || {}_COUNT == 0)", name.to_uppercase()));
     let every = every.collect::<Vec<_>>().join(" && ");
     let links = interface.links.iter().zip(0..).filter(|(link, _)| link.direction == Direction::Out);
     let asked: Vec<&Link> = links.filter(|(_, place)| asked(wiring, *place)).map(|(link, _)| link).collect();
@@ -328,7 +335,14 @@ fn end_section(
     let met =
         counted.iter().map(|(event, _)| format!("        $display(\"met {event} %0d\", met_{event});\n"));
     let waits = asked.iter().map(|link| format!("{}_waits", link.name)).collect();
-    let wrong = [vec![sum("wrong")], device.wrong.clone(), waits].concat().join(" + ");
+    let early = out.iter().map(|name| format!("({name}_early != 0 ? 1 : 0)")).collect();
+    let wrong = [vec![sum("wrong")], device.wrong.clone(), waits, early].concat().join(" + ");
+    let known = asked
+        .iter()
+        .map(|link| of_link("({name}_valid === 1'b1 || {NAME}_COUNT == 0)", link))
+        .collect::<Vec<_>>();
+    let known = if known.is_empty() { "1'b1".to_owned() } else { known.join(" && ") };
+    let early = out.iter().map(|name| EARLY.replace("{name}", name)).collect::<String>();
     END.replace("{ports}", &port_widths(device))
         .replace("{checked}", &sum("checked"))
         .replace("{wrong}", &wrong)
@@ -336,6 +350,8 @@ fn end_section(
         .replace("{fires}", &fires.join(" || "))
         .replace("{missing}", &missing)
         .replace("{every}", &every)
+        .replace("{known}", &known)
+        .replace("{early}", &early)
         .replace("{stuck}", &stuck)
         .replace("{waited}", &waited)
         .replace("{met}", &met.collect::<String>())
@@ -386,7 +402,8 @@ const END: &str = r#"
     wire        event_now = {fires} || status_change;
     reg  [31:0] quiet = 0;
     wire        at_end = !rst && (quiet == IDLE_LIMIT || cycle == CYCLE_LIMIT);
-    assign first_ends = !rst && !compared && (at_end || ({every}));
+    assign all_ahead = {every};
+    assign first_ends = !rst && !compared && (at_end || (all_ahead && {known}));
 {stuck}    always @(posedge clk) begin
         quiet <= rst || event_now ? 0 : quiet + 1;
         if (compared && at_end) finish_run;
@@ -394,7 +411,7 @@ const END: &str = r#"
 
 {ports}
     task finish_run; begin
-{missing}{waited}        if (cycle == CYCLE_LIMIT) $display("still busy after %0d cycles", cycle);
+{missing}{waited}{early}        if (cycle == CYCLE_LIMIT) $display("still busy after %0d cycles", cycle);
 {met}        $display("cycles %0d", cycle - quiet);
         $display("wrong %0d", wrong);
         $display("checked %0d / %0d", checked, EXPECTED);
@@ -418,6 +435,13 @@ const WAITED: &str = r#"        if ({name}_waits != 0) begin
             $display("{name}: {name}_valid waits for {name}_ready, which it must not:");
             $display("    no token was offered in the first run, in which {name}_ready is 0 until {name}_valid is 1");
         end
+"#;
+
+/// The first run found a fault of the channel.
+const EARLY: &str = r#"        if ({name}_early == 1)
+            $display("{name}: {name}_valid was unknown in the first run: does the reset reach {name}_valid?");
+        if ({name}_early == 2)
+            $display("{name}: a token of the first run is not the next one: does the reset reach {name}_valid?");
 "#;
 
 /// Words with spaces between, broken at about `width` characters.

@@ -1,7 +1,7 @@
 //! A user's command, run on a design in a folder of its own.
 
 use anyhow::{Context, Result, anyhow};
-use edgewalk_files::Scratch;
+use edgewalk_files::{Scratch, undisturbed};
 use edgewalk_tool::{Stop, run};
 use sha2::{Digest, Sha256};
 use std::fs;
@@ -88,6 +88,7 @@ impl Bench {
             self.folder.iter().map(|folder| files(folder)).collect::<Result<Vec<_>>>()?.concat()
         {
             let copy = work.join(name);
+            let _undisturbed = undisturbed();
             let copied =
                 copy.parent().map_or(Ok(()), fs::create_dir_all).and_then(|()| fs::copy(&path, &copy));
             copied.with_context(|| path.display().to_string())?;
@@ -97,7 +98,11 @@ impl Bench {
 
     fn run_in(&self, place: &Path, design: &[(String, String)]) -> Result<Ended> {
         let folder = place.join(DESIGN);
-        fs::create_dir_all(&folder)?;
+        {
+            // Behind a signal's removal the folder must not come again.
+            let _undisturbed = undisturbed();
+            fs::create_dir_all(&folder)?;
+        }
         let mut names = Vec::new();
         for (name, text) in design {
             let path = folder.join(name);
