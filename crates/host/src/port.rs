@@ -14,7 +14,7 @@ use edgewalk_scene::{
 };
 use std::borrow::Cow;
 
-/// The commands that take a frame with rules that change between triangles, and a light's map.
+/// The commands that take a frame with rules that change between triangles, and a light's map; an error ends the list.
 const TAKE_ALL: &str = "raster, render, explain, replay, sweep, compare, size, judge";
 const LAST_OF_THEM: &str = "triangles";
 

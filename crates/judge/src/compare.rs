@@ -101,8 +101,8 @@ pub fn bounds_for_input(machine: &Plan, frame: &Frame, reach: &Reach) -> [Option
     for_input(machine, reach, [z.found().beside, color.found().beside], lit || frame.shading.is_some())
 }
 
-/// Bounds of depth and of colour with what is allowed beside additions. `elsewhere`: colours have no bound that all pixels share.
-/// Under a light the gate's part comes on top of it, and what is shaded has its own.
+/// Bounds of depth and of colour, LSB: that of the additions plus `beside`, which holds the errors of other units. With `elsewhere`
+/// each pixel has a colour bound of its own: under a light, or where SHADE makes the colours. The colour bound is then none.
 fn for_input(machine: &Plan, reach: &Reach, beside: [f64; 2], elsewhere: bool) -> [Option<f64>; 2] {
     let [z, color] =
         [0, 1].map(|place| Some(reach.bound(machine, &machine.channels()[place])? + beside[place]));

@@ -24,7 +24,7 @@ module bench_memory #(
     output wire [WIDTH-1:0]   data,
     output wire               fire
 );
-    localparam MOST = 4096;
+    localparam MOST = 4096;  // writes whose addresses are kept
 
     // More than the 2048 reads that can be in flight: tables are asked for faster than they are taken.
     reg [WIDTH-1:0] waiting [0:4095];

@@ -52,8 +52,8 @@ fn registers_that_need_their_start_are_found_by_a_seed() {
     }
 }
 
-/// A register of an output that no reset reaches keeps its token through a reset in which nobody takes it. One that takes
-/// ready for a way out would be emptied by a bench that is ready during a reset.
+/// The reset leaves out the valid of DEPTH's output, and the bench sees it. The bench gives no ready during a reset: a ready
+/// would empty that register and hide the fault.
 #[test]
 fn a_valid_that_no_reset_reaches_is_found() {
     let machine = small();

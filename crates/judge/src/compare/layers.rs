@@ -130,7 +130,7 @@ pub struct Errors {
 }
 
 impl Errors {
-    /// Of this machine, and of the polygons of the frame; of a frame that is shaded at each pixel what is proved of its colours.
+    /// The errors of this machine on this frame. `proof` holds the proved bounds of the colours that SHADE makes.
     pub fn of(machine: &Plan, frame: &Frame, proof: Option<&Proof>) -> Errors {
         let defects = defects(frame, machine);
         let error = |place: usize| {
