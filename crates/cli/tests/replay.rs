@@ -246,3 +246,36 @@ fn what_cannot_be_shown_is_refused_in_words() {
         assert!(!folder.path().join("o.html").exists());
     }
 }
+
+/// A window may end with the cycle before a clearing of the depth memory, and begin behind it: both as the error says.
+#[test]
+fn a_window_ends_or_begins_at_a_clearing() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let cleared = TRIANGLE.to_owned() + "clear_depth\nT 0 0 0 1 0 0 0  60 0 0 0 1 0 0  0 40 1 0 0 1 0\n";
+    std::fs::write(folder.path().join("a.tri"), cleared).expect("written");
+    let replay = |window: &[&str]| {
+        let arguments = [&["replay", "a.tri", "--out", "o.json", "--quiet"], window].concat();
+        run(folder.path(), &arguments)
+    };
+    let (code, error) = replay(&[]);
+    let behind = |key: &str| {
+        let word = error.split(key).nth(1).and_then(|rest| rest.split_whitespace().next());
+        word.and_then(|word| word.parse::<u64>().ok()).unwrap_or_else(|| panic!("{key}: {error}"))
+    };
+    let (cycle, end, begin) = (behind("before cycle "), behind("--to "), behind("--from "));
+    // The triangle is drawn twice: what is before the clearing takes as long as the first alone.
+    let (alone, error) = replay(&["--triangles", "1"]);
+    let text = std::fs::read_to_string(folder.path().join("o.json")).expect("written");
+    let shown: serde_json::Value = serde_json::from_str(&text).expect("JSON");
+    assert_eq!((alone, shown["cycles"].as_u64()), (Some(0), Some(cycle)), "{error}");
+    assert_eq!((code, end + 1, begin), (Some(2), cycle, cycle));
+    for (window, wanted) in [
+        (["--to".to_owned(), end.to_string()], 0),
+        (["--to".to_owned(), cycle.to_string()], 2),
+        (["--from".to_owned(), begin.to_string()], 0),
+        (["--from".to_owned(), end.to_string()], 2),
+    ] {
+        let (code, error) = replay(&window.each_ref().map(String::as_str));
+        assert_eq!(code, Some(wanted), "{window:?}: {error}");
+    }
+}

@@ -282,6 +282,13 @@ mod tests {
             ("a < b ? 1 : a >= 7 ? 2 : 3", 2),
             ("0 = 1 ? a / 0 : 5", 5),
             ("clamp(a, 0, 5) + clamp(b, 0, 5) + max(a, b) * min(a, b)", -16),
+            ("a / 2 < 4 ? 1 : 2", 1),
+            ("4 < a / 2 ? 1 : 2", 2),
+            ("min(a / 2, 4) * 2", 7),
+            ("max(a / 2, 4)", 4),
+            ("a / 2 / (1 / 4) * (b / 3)", -14),
+            ("1 / 2 / 3 * 6 + 1 / 4 - 5 / 4", 0),
+            ("(a / 2)^2 * 4", 49),
         ] {
             assert_eq!(of(text), Ok(value), "{text}");
         }
@@ -297,6 +304,10 @@ mod tests {
             ("(a", ") is missing"),
             ("root(a)", "no function root"),
             ("a +", "ends early"),
+            ("2^b", "exponent below 0"),
+            ("mod(a / 2, 2)", "no function mod"),
+            ("mod(a, 3 / 2)", "no function mod"),
+            ("mod(a, b)", "no function mod"),
         ] {
             assert!(of(text).as_ref().is_err_and(|error| error.contains(why)), "{text}: {:?}", of(text));
         }
