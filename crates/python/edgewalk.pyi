@@ -202,7 +202,7 @@ class Live:
     Values and order are those of any design of the unit, whatever its timing. `constants` are inputs that hold one
     value, as `depth_func`; those left out are the ones of a frame without blending whose nearest fragment wins.
     `memories` has the first words of the memories behind the unit, `clear` all their other words; without it every bit
-    is 1. The object belongs to the thread that made it.
+    is 1. One thread at a time may use it.
     """
 
     def __init__(

@@ -12,7 +12,7 @@ use std::ffi::c_char;
 pub struct EdgewalkRun {
     interface: Interface,
     device: Box<dyn ModelDevice>,
-    rig: Rig<'static>,
+    rig: Rig,
     ports: PortValues,
     idle: PortId,
     done: bool,

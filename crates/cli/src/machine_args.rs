@@ -52,13 +52,34 @@ impl MachineArgs {
         asked.words().into_iter().map(str::to_owned).collect()
     }
 
+    /// Refuses --machine and --set, which would count for nothing; `why` says of what.
+    pub fn none(&self, why: &str) -> Result<()> {
+        let asked = self.words();
+        ensure!(asked.is_empty(), "{}: {why}; leave out --machine and --set", asked.join(" "));
+        Ok(())
+    }
+
     /// The machine `FILE|PRESET[,key=value...]`, with what --set says on top; screen and needs as in
     /// [`MachineArgs::adapted`].
+    ///
+    /// # Errors
+    /// Those of [`MachineArgs::adapted`]; --machine beside it; a key that --set gives another value.
     pub fn named(&self, text: &str, size: Option<(u32, u32)>, needs: impl Needs) -> Result<Plan> {
+        ensure!(
+            self.machine == DEFAULT,
+            "--machine {}: the command names its machines itself, as {text}; leave out --machine",
+            self.machine
+        );
         let mut words = text.split(',').map(str::trim);
         let machine = words.next().unwrap_or_default();
-        let own = words.map(|setting| Setting { option: "", setting });
-        let settings: Vec<Setting> = own.chain(self.settings()).collect();
+        let own: Vec<Setting> = words.map(|setting| Setting { option: "", setting }).collect();
+        for (key, value) in own.iter().filter_map(Setting::parts) {
+            let other = |of: &Setting| of.parts().is_some_and(|of| of.0 == key && of.1 != value);
+            if let Some(setting) = self.settings().find(other) {
+                return Err(anyhow!("{text}: {setting} gives {key} another value; leave one of the two out"));
+            }
+        }
+        let settings: Vec<Setting> = own.into_iter().chain(self.settings()).collect();
         load(machine, Machine::from_toml)
             .and_then(|machine| adapted(&machine, size, needs, &settings))
             .with_context(|| text.to_owned())

@@ -155,7 +155,9 @@ fn run(cli: &Cli, talk: Talk) -> Result<Verdict> {
     match &cli.command {
         Command::Demo(a) => demo::run(a, &cli.machine, talk),
         Command::Render(a) => render::run(a, &cli.machine, talk),
-        Command::Gallery(a) => gallery::run(a, talk),
+        Command::Gallery(a) => {
+            cli.machine.none("each exhibit has its own machine").and_then(|()| gallery::run(a, talk))
+        }
         Command::Explain(a) => explain::run(a, &cli.machine, talk),
         Command::Raster(a) => raster::run(a, &cli.machine, talk),
         Command::Triangles(a) => commands::triangles::run(a, &cli.machine, talk),
@@ -171,12 +173,18 @@ fn run(cli: &Cli, talk: Talk) -> Result<Verdict> {
         Command::Replay(a) => replay::run(a, &cli.machine, talk),
         Command::Synth(a) => synth::run(a, &cli.machine, talk),
         Command::Estimate(a) => estimate::run(a, &cli.machine, talk),
-        Command::Calibrate(a) => calibrate::run(a, talk),
+        Command::Calibrate(a) => {
+            cli.machine.none("--machines lists the machines").and_then(|()| calibrate::run(a, talk))
+        }
         Command::Energy(a) => energy::run(a, &cli.machine, talk),
         Command::Bench(a) => bench::run(a, &cli.machine, talk),
         Command::Config(a) => config::run(a, &cli.machine, talk),
-        Command::Completions(a) => completions::run(a, Cli::command(), talk),
-        Command::Man(a) => man::run(a, Cli::command(), talk),
+        Command::Completions(a) => {
+            cli.machine.none("no machine is used").and_then(|()| completions::run(a, Cli::command(), talk))
+        }
+        Command::Man(a) => {
+            cli.machine.none("no machine is used").and_then(|()| man::run(a, Cli::command(), talk))
+        }
     }
 }
 

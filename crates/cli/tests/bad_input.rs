@@ -72,6 +72,25 @@ const ARGUMENTS: &[(&[&str], &[&str])] = &[
         &["interpolator.adder", "interpolator.adders"],
     ),
     (&["emit", "--set", "adders", "--out", "OUT"], &["key=value"]),
+    (
+        &["gallery", "mach-bands", "--set", "setup.lanes=2", "--out", "OUT"],
+        &["--set setup.lanes=2: ", "leave out"],
+    ),
+    (&["man", "--machine", "small", "--out", "OUT"], &["--machine small: ", "leave out"]),
+    (&["completions", "bash", "--machine", "small"], &["--machine small: ", "leave out"]),
+    (&["calibrate", "--machine", "small"], &["--machine small: ", "leave out"]),
+    (
+        &["sweep", "why", "1", "--out", "OUT", "--set", "setup.lanes=2"],
+        &["--set setup.lanes=2: sweep.json has"],
+    ),
+    (
+        &["compare", "default", "small", "--machine", "ecp5", "--out", "OUT"],
+        &["--machine ecp5: ", "as default"],
+    ),
+    (
+        &["estimate", "small,setup.lanes=2", "--set", "setup.lanes=1"],
+        &["small,setup.lanes=2: --set setup.lanes=1 gives setup.lanes another value"],
+    ),
     (&["emit", "--set", "edge.fill=textbook", "--out", "OUT"], &["subpixel_bits", "integer vertices"]),
     (&["emit", "--set", "screen.width=-1", "--out", "OUT"], &["screen.width", "nearest"]),
     (&["emit", "--machine", "no-such-file.toml", "--out", "OUT"], &["no-such-file.toml"]),

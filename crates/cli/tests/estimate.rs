@@ -263,6 +263,14 @@ fn gates_of_the_text_are_those_of_the_json() {
     assert_eq!(unit["est_kge"]["value"], rows[0]["est_kge_by_unit"]["pixel"]);
 }
 
+/// LAMP keeps its program in a memory of flip-flops, of which some never change or are alike.
+#[test]
+fn gates_of_lamp_are_estimated() {
+    let words = ["small,shade.kind=phong,shade.light=positional", "--family", "osu018", "--unit", "lamp"];
+    let found = &estimates(&words)[0];
+    assert!(found["est_ff"].as_u64() > Some(10_000), "{found}");
+}
+
 /// A sequenced SETUP has its memories in blocks; what lies in look-up tables is none of them.
 #[test]
 fn blocks_of_the_machine_are_left_to_no_memory() {

@@ -229,6 +229,14 @@ fn what_cannot_be_shown_is_refused_in_words() {
             &["--lesson", "blend.kind", "none"],
         ),
         (
+            vec!["replay", "--lesson", "--out", "o.html", "--set", "shadow.light=perspective"],
+            &["--lesson: shadow.light: the lesson does not go through SHADOW; permitted: none"],
+        ),
+        (
+            vec!["replay", "--lesson", "--out", "o.html", "--set", "shade.kind=phong"],
+            &["--lesson: shade.kind: ", "permitted: none"],
+        ),
+        (
             vec!["replay", "--lesson", "--out", "o.html", "--machine", "bilinear"],
             &["--lesson: polygon.values = bilinear", "permitted: plane"],
         ),
@@ -260,7 +268,8 @@ fn a_window_ends_or_begins_at_a_clearing() {
     let (code, error) = replay(&[]);
     let behind = |key: &str| {
         let word = error.split(key).nth(1).and_then(|rest| rest.split_whitespace().next());
-        word.and_then(|word| word.parse::<u64>().ok()).unwrap_or_else(|| panic!("{key}: {error}"))
+        word.and_then(|word| word.trim_end_matches([',', ';']).parse::<u64>().ok())
+            .unwrap_or_else(|| panic!("{key}: {error}"))
     };
     let (cycle, end, begin) = (behind("before cycle "), behind("--to "), behind("--from "));
     // The triangle is drawn twice: what is before the clearing takes as long as the first alone.

@@ -61,10 +61,12 @@ pub const COMMANDS: [&[&str]; 27] = [
     &["man", "--out", "man"],
 ];
 
-/// On the screen of the file; `raster`, `bench` and `gallery` take no word of the screen or have their own.
+/// On the screen of the file, for the commands that have a machine.
 pub fn arguments<'a>(command: &[&'a str], json: bool) -> Vec<&'a str> {
     let mut arguments = command.to_vec();
-    arguments.extend(SCREEN);
+    if !["gallery", "calibrate", "completions", "man"].contains(&command[0]) {
+        arguments.extend(SCREEN);
+    }
     if json {
         arguments.push("--json");
     }

@@ -1,12 +1,12 @@
 //! Draws triangles with the machine's netlist, in the interpreter or whatever else runs it, the rig behind its ports.
 
-use crate::UnknownConstant;
 use crate::device::{Device, NetlistDevice, PortError, Triangles, netlist};
 use crate::interface::{Interface, Link};
 use crate::rig::{Rig, Setting};
 use crate::stalls::{StallKind, patterns};
 use crate::unit::Unit;
 use crate::values::{PortId, PortValues};
+use crate::{Token, UnknownConstant};
 use edgewalk_machine::{
     Activity, DrawState, Events, ForeignVertex, Maps, Pass, Plan, PortVertex, Role, Shading, Step,
     first_of_picture, steps,
@@ -248,7 +248,7 @@ fn run<'a>(
 
 /// Until all its triangles are drawn; false if enough was seen before.
 fn draw_part(
-    mut rig: Rig<'_>,
+    mut rig: Rig<impl Iterator<Item = Token>>,
     picture: &mut Picture,
     ports: &mut PortValues,
     cycle: &mut impl FnMut(&mut PortValues) -> bool,

@@ -53,7 +53,7 @@ pub enum LockstepError {
 pub struct Lockstep<'a> {
     interface: &'a Interface,
     /// What drives both.
-    pub rig: Rig<'a>,
+    pub rig: Rig,
     comparison: Comparison,
     follower: Follower,
     expected: PortValues,

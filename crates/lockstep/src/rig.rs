@@ -57,9 +57,9 @@ impl Setting {
     }
 }
 
-/// The rig in the middle of a run.
-pub struct Rig<'a> {
-    source: Box<dyn Iterator<Item = Token> + 'a>,
+/// The rig in the middle of a run; its tokens come from `S`.
+pub struct Rig<S = std::vec::IntoIter<Token>> {
+    source: S,
     /// The token that is offered, or will be.
     next: Option<Token>,
     /// Words taken of it, where it is sent word by word.
@@ -80,26 +80,24 @@ pub struct Rig<'a> {
     cycle: u64,
 }
 
-impl<'a> Rig<'a> {
-    /// A rig before cycle 0.
+impl Rig {
+    /// A rig before cycle 0, with the tokens of the setting.
     #[must_use]
-    pub fn new(interface: &Interface, mut setting: Setting) -> Rig<'a> {
+    pub fn new(interface: &Interface, mut setting: Setting) -> Rig {
         let tokens = std::mem::take(&mut setting.tokens);
         Rig::fed(interface, setting, tokens.into_iter())
     }
+}
 
+impl<S: Iterator<Item = Token>> Rig<S> {
     /// Like `new`, with tokens from elsewhere.
     #[must_use]
-    pub fn fed(
-        interface: &Interface,
-        setting: Setting,
-        mut source: impl Iterator<Item = Token> + 'a,
-    ) -> Rig<'a> {
+    pub fn fed(interface: &Interface, setting: Setting, mut source: S) -> Rig<S> {
         let memories = interface.memories.iter().zip(setting.memories);
         let constants = interface.constants.iter().map(|port| port.id).zip(setting.constants);
         Rig {
             next: source.next(),
-            source: Box::new(source),
+            source,
             place: 0,
             sent: 0,
             triangles: Vec::new(),
@@ -117,7 +115,7 @@ impl<'a> Rig<'a> {
 
     /// Like `fed`, with the triangle that each token belongs to.
     #[must_use]
-    pub fn of_triangles(self, triangles: Vec<u32>) -> Rig<'a> {
+    pub fn of_triangles(self, triangles: Vec<u32>) -> Rig<S> {
         Rig { triangles, ..self }
     }
 

@@ -78,9 +78,9 @@ pub trait Shown {
 }
 
 /// A unit that shows itself by its ports.
-pub trait Ported<const C: usize> {
+pub trait Ported<const C: usize>: Send {
     /// The token that it takes.
-    type Takes;
+    type Takes: Send;
 
     /// Shows all outputs in a cycle with these inputs.
     fn show(&self, pins: &Pins<Self::Takes, C>, out: &mut impl Shown);

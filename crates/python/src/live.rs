@@ -10,12 +10,15 @@ use edgewalk_vectors::live::{self, StartWords};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
 use std::collections::BTreeMap;
+use std::sync::{Mutex, PoisonError};
 
 /// A unit of the model that is fed token by token.
-///
-/// It belongs to the thread that made it, as a simulation does.
-#[pyclass(module = "edgewalk", unsendable)]
-pub struct Live(live::Live);
+#[pyclass(module = "edgewalk")]
+pub struct Live {
+    interface: Interface,
+    /// Reached by `get_mut` alone: two threads at once get Python's error of a borrowed object.
+    unit: Mutex<live::Live>,
+}
 
 #[pymethods]
 impl Live {
@@ -36,26 +39,27 @@ impl Live {
             constants.iter().map(|(name, value)| (name.as_str(), *value)).collect();
         let memories = start(&interface, memories, clear)?;
         let made = live::Live::new(&machine, unit, &constants, &memories);
-        made.map(Live).map_err(|error| Error::new_err(error.to_string()))
+        let unit = made.map_err(|error| Error::new_err(error.to_string()))?;
+        Ok(Live { interface, unit: Mutex::new(unit) })
     }
 
     /// Name of the link whose tokens are given.
     #[getter]
     fn takes(&self) -> &'static str {
-        self.0.takes().name
+        self.interface.links[0].name
     }
 
     /// Names of the links whose tokens come.
     #[getter]
     fn gives(&self) -> Vec<&'static str> {
-        self.0.interface().links_of(Direction::Out).map(|link| link.name).collect()
+        self.interface.links_of(Direction::Out).map(|link| link.name).collect()
     }
 
     /// For each link its ports: name, bits, whether it is signed.
     #[getter]
     fn ports<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let dict = PyDict::new(py);
-        for link in &self.0.interface().links {
+        for link in &self.interface.links {
             let ports = link.fields.iter().map(|port| (&port.name, port.width(), port.is_signed()));
             dict.set_item(link.name, PyList::new(py, ports)?)?;
         }
@@ -64,32 +68,38 @@ impl Live {
 
     /// Gives the unit a token, as it stood at its ports.
     fn give(&mut self, token: &Bound<'_, PyDict>) -> PyResult<()> {
-        let token = read(self.0.takes(), token)?;
-        self.0.give(&token);
+        let token = read(&self.interface.links[0], token)?;
+        self.unit().give(&token);
         Ok(())
     }
 
     /// The next token of a link out; None if what was given makes no more.
     fn next<'py>(&mut self, py: Python<'py>, link: &str) -> PyResult<Option<Bound<'py, PyDict>>> {
-        let links = &self.0.interface().links;
+        let links = &self.interface.links;
         let place = links.iter().position(|known| known.name == link && known.direction == Direction::Out);
         let place =
             place.ok_or_else(|| Error::new_err(Unknown::new("link", link, self.gives()).to_string()))?;
-        let Some(token) = self.0.next(place) else { return Ok(None) };
-        dictionary(py, &self.0.interface().links[place], &token).map(Some)
+        let Some(token) = self.unit().next(place) else { return Ok(None) };
+        dictionary(py, &self.interface.links[place], &token).map(Some)
     }
 
     /// For each link out: the number of tokens left over.
     fn rest<'py>(&mut self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let dict = PyDict::new(py);
-        for (link, count) in self.0.rest() {
+        for (link, count) in self.unit().rest() {
             dict.set_item(link, count)?;
         }
         Ok(dict)
     }
 
     fn __repr__(&self) -> String {
-        format!("<edgewalk.Live {}>", self.0.interface().unit.name())
+        format!("<edgewalk.Live {}>", self.interface.unit.name())
+    }
+}
+
+impl Live {
+    fn unit(&mut self) -> &mut live::Live {
+        self.unit.get_mut().unwrap_or_else(PoisonError::into_inner)
     }
 }
 

@@ -1,6 +1,7 @@
 """`vectors` and `Live` beside the program. Run by tests/python."""
 
 import re
+import threading
 
 import numpy as np
 import pytest
@@ -132,6 +133,18 @@ def test_live_unit_gives_what_the_vectors_expect(tmp_path, keys):
         assert set(live.rest().values()) == {0}
         seen += 1
     assert compared > 300 and seen >= 6
+
+
+def test_live_unit_may_be_used_by_another_thread():
+    made = edgewalk.vectors(edgewalk.Machine(keys=SMALL), unit="pixel")
+    live, given, found = edgewalk.Live("pixel", edgewalk.Machine(keys=SMALL)), made.tokens("span"), []
+    def feed():
+        live.give(dict(zip(given.dtype.names, given.tolist()[0])))
+        found.append(live.next(live.gives[0]))
+    thread = threading.Thread(target=feed)
+    thread.start()
+    thread.join()
+    assert [tuple(token.values()) for token in found] == made.tokens(live.gives[0]).tolist()[:1]
 
 
 def test_live_unit_has_memories_of_its_own():

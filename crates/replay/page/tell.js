@@ -169,7 +169,7 @@ class Tell {
     const { command } = doc;
     if (command) {
       const text = command.replace(/\{x\} \{y\}$/, chosen.join(" "));
-      this.past.append(make("p", { class: "note" }, "Every addition on the way: ", make("code", {}, text)));
+      this.past.append(make("p", { class: "note" }, "This pixel explained: ", make("code", {}, text)));
     }
   }
   // Beside the machine's value the exact one, the error and its bound.

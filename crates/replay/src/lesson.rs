@@ -78,6 +78,22 @@ pub struct Lesson {
     pub checks: Vec<Check>,
 }
 
+/// Whether the lesson goes through all units of the machine: asked before anything is recorded.
+///
+/// # Errors
+/// The key of a unit that it does not go through.
+pub fn permitted(plan: &Plan) -> Result<(), String> {
+    let of_triangle = !plan.polygon.is_there();
+    let left_out = [
+        ("blend.kind", "BLEND", of_triangle && plan.blend.is_there()),
+        ("shadow.light", "SHADOW", of_triangle && plan.shadow.is_there()),
+        ("shade.kind", "the units that shade each pixel", plan.shade.is_there()),
+    ];
+    left_out.iter().find(|(_, _, there)| *there).map_or(Ok(()), |(key, unit, _)| {
+        Err(format!("{key}: the lesson does not go through {unit}; permitted: none"))
+    })
+}
+
 /// Walks a triangle, alone on an empty screen, through the text; `channel` is the one that is shown.
 ///
 /// # Errors

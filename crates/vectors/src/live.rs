@@ -13,10 +13,8 @@ use edgewalk_lockstep::{
     status_ports,
 };
 use edgewalk_machine::{DrawState, Plan};
-use std::cell::RefCell;
 use std::collections::{BTreeMap, VecDeque};
-use std::rc::Rc;
-use std::sync::Arc;
+use std::sync::{Arc, mpsc};
 
 /// A memory behind the unit as it is at the start.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -27,12 +25,23 @@ pub struct StartWords {
     pub clear: Option<u128>,
 }
 
+/// The tokens that the rig has not offered yet.
+struct Given(mpsc::Receiver<Token>);
+
+impl Iterator for Given {
+    type Item = Token;
+
+    fn next(&mut self) -> Option<Token> {
+        self.0.try_recv().ok()
+    }
+}
+
 /// A unit of the model in the middle of a simulation.
 pub struct Live {
     interface: Interface,
-    /// Tokens that the rig has not offered yet.
-    given: Rc<RefCell<VecDeque<Token>>>,
-    rig: Rig<'static>,
+    /// Where the rig's tokens are put.
+    given: mpsc::Sender<Token>,
+    rig: Rig<Given>,
     device: Box<dyn ModelDevice>,
     ports: PortValues,
     /// Words of a token that is taken word by word, as far as they have come.
@@ -72,11 +81,10 @@ impl Live {
         }
         let device =
             model(plan, &interface).expect("a test of lockstep finds every declared port in the model");
-        let given = Rc::new(RefCell::new(VecDeque::new()));
-        let source = given.clone();
+        let (given, source) = mpsc::channel();
         Ok(Live {
             patience: patience(plan, &setting.patterns),
-            rig: Rig::fed(&interface, setting, std::iter::from_fn(move || source.borrow_mut().pop_front())),
+            rig: Rig::fed(&interface, setting, Given(source)),
             device,
             ports: interface.values(),
             words: Token::new(),
@@ -115,7 +123,7 @@ impl Live {
             whole = std::mem::take(&mut self.words);
             whole.extend_from_slice(&token[1..]);
         }
-        self.given.borrow_mut().push_back(whole);
+        self.given.send(whole).expect("the rig holds the other end");
         self.rig.ask_again();
         self.quiet = 0;
     }

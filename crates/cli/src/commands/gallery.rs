@@ -16,6 +16,8 @@ use std::path::{Path, PathBuf};
 
 /// Draw the gallery: strengths and faults of each shading system of the sources, with pictures and measured
 /// figures.
+///
+/// Each exhibit has its own machine: --machine and --set are refused.
 #[derive(clap::Args)]
 #[command(after_help = "Examples:
   edgewalk gallery

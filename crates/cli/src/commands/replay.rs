@@ -16,7 +16,7 @@ use edgewalk_machine::counted::number;
 use edgewalk_machine::{Counted, Plan, PortVertex};
 use edgewalk_model::{DrawState, Stalls, Waits};
 use edgewalk_replay::lesson::polygon::{polygon, polygon_lesson};
-use edgewalk_replay::lesson::{SCREEN, triangle};
+use edgewalk_replay::lesson::{SCREEN, permitted, triangle};
 use edgewalk_replay::{Lesson, Recording, Replay, Rules, Truth, Window, lesson, page, record, record_passes};
 use serde_json::json;
 use std::path::PathBuf;
@@ -175,6 +175,7 @@ fn explaining(args: &Args, machine: &MachineArgs, of: usize) -> String {
 /// The triangle of the lesson on its screen, or on a machine with POLY the polygon.
 fn taught(machine: &MachineArgs) -> Result<Shown> {
     let machine = machine.machine(Some(SCREEN))?;
+    permitted(&machine).map_err(|why| anyhow!("--lesson: {why}"))?;
     let of_polygon = machine.polygon.is_there();
     let tokens = match of_polygon {
         true => polygon(&machine).context("--lesson")?,

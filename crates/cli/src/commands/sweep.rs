@@ -209,6 +209,9 @@ const DEFINITION: &str = "sweep.json";
 
 /// Runs the command.
 pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
+    if matches!(args.part, Some(Part::Run(_) | Part::Merge(_) | Part::Why(_))) {
+        machine.none("sweep.json has the machine")?;
+    }
     match &args.part {
         Some(Part::Plan(plan)) => {
             chunks::plan(&plan.what.definition(machine, Some(plan.chunks))?, plan.what.out()?, talk)

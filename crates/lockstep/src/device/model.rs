@@ -46,7 +46,7 @@ impl From<Box<Port>> for NoPlace {
 }
 
 /// A unit of the model. Events count from here on.
-pub trait ModelDevice: Device {
+pub trait ModelDevice: Device + Send {
     /// What has happened so far.
     fn events(&self) -> &Events;
 

@@ -53,9 +53,6 @@ impl<'a> Course<'a> {
         if channel >= plan.channels().len() {
             return Err(format!("the machine has no channel {channel}"));
         }
-        if plan.blend.is_there() {
-            return Err("blend.kind: the lesson does not go through BLEND; permitted: none".to_owned());
-        }
         Ok(Course {
             plan,
             recording,

@@ -150,7 +150,8 @@ impl Builder<'_> {
         }
         let memories: Vec<Option<usize>> =
             (0..self.words.memories.len()).map(|place| self.outputs(place)).collect();
-        for bit in self.known.keys() {
+        // A bit of the builder's own asks what is known of it where it is made.
+        for bit in self.known.keys().filter(|bit| (**bit as usize) < self.words.bits) {
             self.lits[*bit as usize] = self.of_known(*bit);
         }
         for cell in &self.words.cells {

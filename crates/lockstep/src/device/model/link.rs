@@ -61,7 +61,7 @@ impl<'a> Scope<'a> {
 }
 
 /// Where tokens come in.
-pub trait Takes<T> {
+pub trait Takes<T>: Send {
     /// The token that is offered.
     fn token(&self, ports: &PortValues) -> Option<T>;
 
@@ -87,7 +87,7 @@ impl<T: Sourced> Taker<T> {
     }
 }
 
-impl<T: Sourced> Takes<T> for Taker<T> {
+impl<T: Sourced + Send> Takes<T> for Taker<T> {
     fn token(&self, ports: &PortValues) -> Option<T> {
         let triangle = ports.triangle(self.place).unwrap_or(0);
         ports.is_high(self.valid).then(|| self.table.unpack(ports.range(&self.fields), triangle))
