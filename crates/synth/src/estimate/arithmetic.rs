@@ -31,13 +31,13 @@ pub(super) fn extended(word: &[Lit], width: usize, signed: bool) -> Vec<Lit> {
     (0..width).map(|bit| word.get(bit).copied().unwrap_or(fill)).collect()
 }
 
-/// How many of the lowest bits need no chain, as one of the two words is 0 there (`opt_expr -fine`). A chain of an iCE40
-/// leaves such bits out by itself.
+/// How many of the lowest bits need no chain, as one of the two words hands the carry on there: a 0, or of what is
+/// subtracted from a 1 (`opt_expr -fine`). A chain of an iCE40 leaves such bits out by itself.
 fn low_zeros(a: &[Lit], b: &[Lit], subtract: bool, carry: Lit) -> usize {
     if carry != Lit::from(subtract) {
         return 0;
     }
-    a.iter().zip(b).take_while(|(a, b)| **b == FALSE || (!subtract && **a == FALSE)).count()
+    a.iter().zip(b).take_while(|(a, b)| **b == FALSE || **a == carry).count()
 }
 
 /// The operands of a sum or difference of `width` bits without the zeros on top, and how many bits are computed.
@@ -147,7 +147,7 @@ impl Graph {
         let low = if self.family == Family::Ecp5 { low_zeros(a, b, invert, carry).min(width) } else { 0 };
         let a = extended(a, width, signed);
         let b: Vec<Lit> = extended(b, width, signed).iter().map(|lit| lit ^ Lit::from(invert)).collect();
-        // The zeros give a bit of the other word, and the carry goes on as it is.
+        // They give a bit of the other word, and the carry goes on as it is.
         let handed = (0..low).map(|at| if b[at] == carry { a[at] } else { b[at] });
         let (mut sums, mut carries): (Vec<Lit>, Vec<Lit>) = (handed.collect(), vec![carry; low]);
         let (a, b) = (&a[low..], &b[low..]);

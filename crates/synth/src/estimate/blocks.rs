@@ -24,11 +24,25 @@ fn in_flip_flops(memory: &Memory, held: usize) -> usize {
     memory.words * held / if memory.rom.is_some() { 16 } else { 1 }
 }
 
-/// The same in look-up tables; none where the family has no such memories.
+/// Twice the cost of a memory in cells of `deep` words and `wide` bits that cost `each`: of the cells, of the choice among
+/// cells that hold other words, and of logic around the ports. A guarded memory has more of that (`memory_libmap`).
+fn twice_in_cells(
+    memory: &Memory,
+    held: usize,
+    (deep, wide, each): (usize, usize, usize),
+    guarded: bool,
+) -> usize {
+    let (rows, reads, writes) = (memory.words.div_ceil(deep), memory.reads.len(), memory.writes.len());
+    let choices = if rows > 1 { (rows - 1) * held * reads + rows * writes } else { 0 };
+    let ports = reads + if guarded { 3 * (reads + writes) } else { 0 };
+    2 * each * rows * held.div_ceil(wide) * reads + choices + 4 * ports
+}
+
+/// What a memory in look-up tables costs where flip-flops cost more; none where the family has no such memories.
 fn in_tables(family: Family, memory: &Memory, held: usize) -> Option<usize> {
-    let (deep, wide, cost) = DISTRIBUTED;
-    (family == Family::Ecp5 && memory.writes.len() <= 1)
-        .then(|| cost * memory.words.div_ceil(deep) * held.div_ceil(wide) * memory.reads.len())
+    let twice = twice_in_cells(memory, held, DISTRIBUTED, false);
+    let may = family == Family::Ecp5 && memory.writes.len() <= 1;
+    (may && twice < 2 * in_flip_flops(memory, held)).then_some(twice / 2)
 }
 
 impl Builder<'_> {
@@ -45,24 +59,24 @@ impl Builder<'_> {
 
     /// Whether look-up tables hold a memory that no blocks hold.
     pub fn is_distributed(&self, memory: &Memory) -> bool {
-        let held = self.bits_held(memory).len();
-        in_tables(self.words.family, memory, held).is_some_and(|cost| cost <= in_flip_flops(memory, held))
+        in_tables(self.words.family, memory, self.bits_held(memory).len()).is_some()
     }
 
-    /// Blocks for a memory, none where flip-flops are cheaper; and the nodes of its outputs.
+    /// Blocks for a memory, none where flip-flops or look-up tables are cheaper; and the nodes of its outputs.
     pub fn outputs(&mut self, place: usize) -> Option<usize> {
         let memory = &self.words.memories[place];
         self.graph.unit = memory.unit;
         let held = self.bits_held(memory);
-        let (shapes, cost) = blocks(self.words.family);
-        let needed = |(deep, wide): (usize, usize)| memory.words.div_ceil(deep) * held.len().div_ceil(wide);
-        let (deep, wide) = shapes.iter().copied().min_by_key(|shape| needed(*shape)).unwrap_or((1, 1));
-        let blocks = needed((deep, wide)) * memory.reads.len();
-        // Of equal costs blocks come before look-up tables, and flip-flops before blocks.
-        let in_blocks = !shapes.is_empty()
-            && memory.writes.len() <= 1
-            && blocks * cost < in_flip_flops(memory, held.len())
-            && in_tables(self.words.family, memory, held.len()).is_none_or(|tables| blocks * cost <= tables);
+        let (shapes, each) = blocks(self.words.family);
+        let twice = |&(deep, wide): &(usize, usize)| {
+            twice_in_cells(memory, held.len(), (deep, wide, each), self.guarded[place])
+        };
+        let (deep, wide) = shapes.iter().copied().min_by_key(twice).unwrap_or((1, 1));
+        let else_costs = in_tables(self.words.family, memory, held.len())
+            .unwrap_or_else(|| in_flip_flops(memory, held.len()));
+        // Of equal costs flip-flops come first, then look-up tables.
+        let in_blocks =
+            !shapes.is_empty() && memory.writes.len() <= 1 && twice(&(deep, wide)) < 2 * else_costs;
         let first_block = self.memories.len();
         if in_blocks {
             for port in 0..memory.reads.len() {
