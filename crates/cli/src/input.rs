@@ -7,7 +7,7 @@ use clap::ValueEnum as _;
 use edgewalk_golden::{HiddenLines, Order, wireframe_in_lines};
 use edgewalk_host::extra;
 use edgewalk_host::faces::joined;
-use edgewalk_host::input::{fitting, in_triangles};
+use edgewalk_host::input::{as_large, fitting, in_triangles};
 use edgewalk_host::needs::needs;
 pub use edgewalk_host::port::{PortFrame, draw_state, to_port};
 use edgewalk_host::raster::golden_fill;
@@ -167,7 +167,12 @@ impl Source {
             return args.machine(screen);
         }
         if let Some(frame) = self.triangles()? {
-            return args.adapted(screen, |machine: &Plan| Ok(needs(frame, machine)));
+            return args.adapted(screen, |machine: &Plan| {
+                Ok(match self.shading() {
+                    Shading::Wireframe => needs(&lines_of(frame, machine, HiddenLines::Removed), machine),
+                    _ => needs(frame, machine),
+                })
+            });
         }
         let mut drawn = None;
         args.adapted(screen, |machine: &Plan| {
@@ -271,6 +276,11 @@ impl Source {
     /// The frame with the polygons it has.
     pub fn outlined(&self, machine: &Plan) -> Result<Frame> {
         match self.triangles()? {
+            // A wireframe has no values for channels of the user's own.
+            Some(frame) if self.shading() == Shading::Wireframe => {
+                as_large(&self.input, frame, machine)?;
+                Ok(frame.clone())
+            }
             Some(frame) => fitting(&self.input, frame.clone(), machine),
             None => {
                 let (scene, surface) = self.surface(machine)?;
@@ -282,6 +292,11 @@ impl Source {
 
 /// The edges of a frame as lines, its surfaces as triangles.
 fn in_lines(frame: &Frame, machine: &Plan, hidden: HiddenLines) -> Result<Frame> {
+    in_triangles(lines_of(frame, machine, hidden), machine)
+}
+
+/// The edges of a frame as lines, its surfaces with the polygons they have.
+fn lines_of(frame: &Frame, machine: &Plan, hidden: HiddenLines) -> Frame {
     let step = 1.0 / machine.z.max() as f64;
-    in_triangles(wireframe_in_lines(frame, golden_fill(machine), hidden, step), machine)
+    wireframe_in_lines(frame, golden_fill(machine), hidden, step)
 }
