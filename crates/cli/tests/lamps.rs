@@ -124,6 +124,39 @@ fn several_lights_are_drawn_one_after_the_other_and_added() {
     assert_eq!(told["shaded"].as_array().unwrap().len(), 3);
 }
 
+/// What an error advises draws the picture, or the error says that no machine does.
+#[test]
+fn what_is_advised_for_several_lights_works() {
+    let folder = tempfile::tempdir().unwrap();
+    let render = [&["render", "s.toml", "--shading", "phong", "--out", "r"], &SMALL[..]].concat();
+    let at_point = ["--set", "shade.light=positional"];
+    scene(folder.path(), &format!("{BULB}{FLOOD}"));
+    let mut advised = 0;
+    for more in [&["--adapt"][..], &["--set", "shade.kind=phong"]] {
+        let (code, error) = run(folder.path(), &[&render[..], more].concat());
+        assert!(code == Some(2) && error.contains(&at_point.join(" ")), "{more:?}: {error}");
+        assert!(!error.contains("shade.lights"), "{more:?}: {error}");
+        let (code, error) = run(folder.path(), &[&render[..], more, &at_point].concat());
+        assert_eq!(code, Some(0), "{more:?}: {error}");
+        advised += 1;
+    }
+    scene(folder.path(), &format!("{SUN}{BULB}"));
+    for more in [
+        &["--adapt"][..],
+        &[&["--adapt"][..], &at_point].concat(),
+        &["--set", "shade.kind=phong"],
+        &["--set", "shade.kind=phong", "--set", "shade.lights=2"],
+        &LAMP,
+    ] {
+        let (code, error) = run(folder.path(), &[&render[..], more].concat());
+        let said = "no machine with shade.kind = phong draws both kinds in one picture";
+        assert!(code == Some(2) && error.contains(said) && !error.contains("--set"), "{more:?}: {error}");
+        advised += 1;
+    }
+    let (code, error) = run(folder.path(), &[&render[..], &["--engine", "golden"]].concat());
+    assert_eq!((code, advised), (Some(0), 7), "{error}");
+}
+
 /// Every step by the numbers of the one before, in f64, and at the end the very colour of the picture.
 #[test]
 fn explain_walks_the_steps_of_the_light() {
@@ -258,7 +291,7 @@ fn faults_end_with_a_remedy() {
     let cases: [(&str, &[&str], &[&str]); 10] = [
         (BULB, &render, &["light 1", "shade.light=positional", "--engine golden"]),
         (SUN, &lamp, &["a directional light", "shade.light=directional"]),
-        (&sunny, &lamp, &["light 2", "a directional light", "shade.light=directional"]),
+        (&sunny, &lamp, &["light 2 is a directional light", "light 1 stands at a point", "--engine golden"]),
         (&both, &verify, &["2 lights", "take 1", "render", "--engine golden"]),
         (&bright, &lamp, &["highlight of", "shade.light = positional", "at most 1", "weaker light"]),
         (&soft, &lamp, &["exponent 0.5", "take 1"]),
