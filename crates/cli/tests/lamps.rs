@@ -107,21 +107,27 @@ fn several_lights_are_drawn_one_after_the_other_and_added() {
         let all = bound(&report["comparison"]);
         assert!(all <= sum + 1e-9 && all > 0.7 * sum, "{all} of {sum}");
     }
-    let (mut checked, mut cut) = (0, 0);
+    let (mut checked, mut cut, mut brightest) = (0, 0, 0);
     for (at, color) in colors(&folder.path().join("r/image.png")).into_iter().enumerate() {
         for channel in 0..3 {
             let sum: u32 = alone.iter().map(|picture| u32::from(picture[at][channel])).sum();
             assert_eq!(u32::from(color[channel]), sum.min(255), "pixel {at}");
             (checked, cut) = (checked + 1, cut + u32::from(sum > 255));
+            brightest = if sum > 255 { at } else { brightest };
         }
     }
     println!("{checked} colours, {cut} of them cut");
     assert!(checked == 96 * 72 * 3 && cut > 50);
-    // `explain` has each of them.
-    let explain = [&["explain", "s.toml", "40", "30", "--shading", "phong", "--json"], &SMALL[..], &LAMP];
-    let output = edgewalk(folder.path(), &explain.concat()).output().unwrap();
-    let told: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
-    assert_eq!(told["shaded"].as_array().unwrap().len(), 3);
+    // `explain` has each of them, and their sum as the machine stores it.
+    for at in [30 * 96 + 40, brightest] {
+        let [x, y] = [at % 96, at / 96].map(|number| number.to_string());
+        let explain = [&["explain", "s.toml", &x, &y, "--shading", "phong", "--json"], &SMALL[..], &LAMP];
+        let output = edgewalk(folder.path(), &explain.concat()).output().unwrap();
+        let told: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+        assert_eq!(told["shaded"].as_array().unwrap().len(), 3);
+        let drawn = colors(&folder.path().join("r/image.png"))[at];
+        assert_eq!(told["stored"]["rgb"], serde_json::json!(drawn), "{}", told["not_stored"]);
+    }
 }
 
 /// What an error advises draws the picture, or the error says that no machine does.
