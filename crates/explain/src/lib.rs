@@ -349,8 +349,13 @@ fn lights(
     z: f64,
 ) -> Result<Vec<ShadowedPixel>> {
     let frames = edgewalk_host::lights::frames(scene, surface, machine)?;
-    let each = frames.iter().map(|frame| shadowed(frame, machine, id, pixel, z));
-    Ok(each.collect::<Result<Vec<_>>>()?.into_iter().flatten().collect())
+    let mut all = Vec::new();
+    // The first frame is that of no light.
+    for (light, frame) in frames.iter().enumerate().skip(1) {
+        let pixel = shadowed(frame, machine, id, pixel, z)?;
+        all.extend(pixel.map(|pixel| ShadowedPixel { light, ..pixel }));
+    }
+    Ok(all)
 }
 
 /// The triangles of a scene's surface that this primitive of its frame is made of.
