@@ -188,5 +188,9 @@ fn a_file_names_its_own_mode() {
         }
     }
     assert_eq!((refused, drawn), (80, 8));
+    // What a machine for normals says of a file without them holds for files, too.
+    std::fs::write(folder.join("a.tri"), format!("size 32 24\n{triangle}")).unwrap();
+    let (code, error) = run(folder, &["render", "a.tri", "--out", "o", "--set", "shade.kind=phong"]);
+    assert!(code == Some(2) && error.contains("a triangle file with such a mode"), "{error}");
     assert!(!folder.join("o").exists() && !folder.join("d").exists() && !folder.join("r.json").exists());
 }

@@ -42,8 +42,8 @@ pub fn needs(frame: &Frame, machine: &Plan) -> Vec<Need> {
     match &frame.shading {
         Some(shading) => shaded(frame, shading, machine, &mut needs),
         None if machine.shade.is_there() => {
-            let why = "shade.kind: the machine shades by normals and the input has none (it would with --shading \
-                       fast-phong or phong, or with such a mode)";
+            let why = "shade.kind: the machine shades by normals and the input has none (a scene has them with \
+                       --shading fast-phong or phong, a triangle file with such a mode)";
             needs.push(need("shade.kind", "none", why.to_owned()));
         }
         None => {}

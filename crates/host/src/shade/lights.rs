@@ -46,7 +46,8 @@ impl Lamp {
     /// The lights of the frame.
     ///
     /// # Errors
-    /// More than the machine has terms for, or one that weakens with distance or direction: a table holds its intensity.
+    /// Lights of a kind that the machine does not draw, or more than it has terms for. A light that weakens with distance or direction: a
+    /// table holds its intensity.
     pub fn all(shading: &PixelShading, machine: &Plan) -> Result<Vec<Lamp>> {
         one_kind(shading, machine)?;
         let far_away = machine.shade.normalises() && !machine.shade.is_positional();
