@@ -7,7 +7,7 @@ use serde::Serialize;
 /// new.
 fn version(what: &str) -> [u32; 2] {
     match what {
-        "report" | "estimate" | "judge" | "keys" => [1, 1],
+        "report" | "estimate" | "explain" | "judge" | "keys" => [1, 1],
         "energy" | "sweep" => [1, 2],
         "features" => [1, 3],
         _ => [1, 0],

@@ -2,19 +2,19 @@
 
 use crate::machine_args::MachineArgs;
 use crate::progress::reading;
-use anyhow::{Context as _, Result};
+use anyhow::{Context as _, Result, anyhow};
 use clap::ValueEnum as _;
 use edgewalk_golden::{HiddenLines, Order, wireframe_in_lines};
 use edgewalk_host::extra;
 use edgewalk_host::faces::joined;
-use edgewalk_host::input::{fitting, in_triangles};
+use edgewalk_host::input::{as_large, fitting, in_triangles};
 use edgewalk_host::needs::needs;
 pub use edgewalk_host::port::{PortFrame, draw_state, to_port};
 use edgewalk_host::raster::golden_fill;
 use edgewalk_host::vertices::guard_band;
 pub use edgewalk_host::vertices::port_triangle;
 use edgewalk_machine::Plan;
-use edgewalk_scene::{Blending, Frame, InputKind, PixelMethod, Scene, Surface, triangle_file};
+use edgewalk_scene::{Blending, Frame, InputKind, PixelMethod, Scene, ShadeMode, Surface, triangle_file};
 use std::path::Path;
 use std::sync::OnceLock;
 
@@ -25,12 +25,12 @@ pub struct Source {
     /// standard input
     #[arg(value_name = "SCENE|MESH", default_value = "torus-knot")]
     pub input: String,
-    /// Shading method: constant, constant-averaged, gouraud, phong, fast-phong, wireframe (docs/shading.md).
+    /// Shading method: constant, constant-averaged, gouraud, phong, fast-phong, wireframe (docs/shading.md); gouraud if left out.
     ///
     /// phong and fast-phong need a machine with that shade.kind, or --engine golden; wireframe one with polygon.lines = yes, or
-    /// --engine golden.
-    #[arg(long, value_enum, default_value_t = Shading::Gouraud, hide_possible_values = true)]
-    pub shading: Shading,
+    /// --engine golden. A triangle file has a mode of its own: wireframe is the only other way to draw it.
+    #[arg(long, value_enum, hide_possible_values = true)]
+    pub shading: Option<Shading>,
     /// Set the keys of the machine that the input asks for, as channels.extra, blend.kind, shadow.size or
     /// shade.kind; --set has the last word
     #[arg(long)]
@@ -69,6 +69,22 @@ impl Shading {
         }
     }
 
+    /// The name on the command line.
+    pub fn name(self) -> String {
+        // No value is hidden from the command line.
+        self.to_possible_value().map_or_else(String::new, |value| value.get_name().to_owned())
+    }
+
+    /// The way in which a triangle file says itself that it is drawn.
+    fn of(frame: &Frame) -> Self {
+        match (&frame.shading, frame.mode) {
+            (Some(shading), _) if shading.method == PixelMethod::Phong => Self::Phong,
+            (Some(_), _) => Self::FastPhong,
+            (None, ShadeMode::Flat) => Self::Constant,
+            (None, ShadeMode::Gouraud) => Self::Gouraud,
+        }
+    }
+
     /// Method of the cosines, where the equation holds at each pixel.
     fn at_pixels(self) -> Option<PixelMethod> {
         match self {
@@ -82,18 +98,23 @@ impl Shading {
 impl Source {
     /// The input of that name, its colours made at the corners.
     pub fn new(input: &str, adapt: bool) -> Self {
-        Self { input: input.to_owned(), shading: Shading::Gouraud, adapt, read: OnceLock::new() }
+        Self { input: input.to_owned(), shading: None, adapt, read: OnceLock::new() }
     }
 
     /// The words of a command line that ask for the same input; the input itself comes last.
     pub fn words(&self) -> Vec<String> {
-        let shading = self.shading.to_possible_value().filter(|_| self.shading != Shading::Gouraud);
-        let shading = shading.map(|shading| ["--shading".to_owned(), shading.get_name().to_owned()]);
+        let shading = self.shading.filter(|shading| *shading != Shading::Gouraud);
+        let shading = shading.map(|shading| ["--shading".to_owned(), shading.name()]);
         // A name that begins with a hyphen would be read as an option.
         let named = self.input.starts_with('-') && self.input != InputKind::STANDARD_INPUT;
         let here = if named { "./" } else { "" };
         let adapt = self.adapt.then(|| "--adapt".to_owned());
         shading.into_iter().flatten().chain(adapt).chain([format!("{here}{}", self.input)]).collect()
+    }
+
+    /// The shading method asked for.
+    pub fn shading(&self) -> Shading {
+        self.shading.unwrap_or(Shading::Gouraud)
     }
 
     /// Whether the input is a triangle file, which has no surface to shade.
@@ -108,10 +129,30 @@ impl Source {
         }
         if self.read.get().is_none() {
             let _reading = reading();
+            let frame = triangle_file::read(Path::new(&self.input))?;
+            self.check_shading(&frame)?;
             // Nobody else has set it: commands read on one thread.
-            _ = self.read.set(triangle_file::read(Path::new(&self.input))?);
+            _ = self.read.set(frame);
         }
         Ok(self.read.get())
+    }
+
+    /// Accepts a shading method in which a triangle file can be drawn: its own, or wireframe.
+    ///
+    /// # Errors
+    /// Another one: both names, and what is permitted.
+    fn check_shading(&self, frame: &Frame) -> Result<()> {
+        let own = Shading::of(frame);
+        let Some(other) = self.shading.filter(|shading| ![own, Shading::Wireframe].contains(shading)) else {
+            return Ok(());
+        };
+        let mode = frame.shading.as_ref().map_or(frame.mode.name(), |shading| shading.method.name());
+        Err(anyhow!(
+            "--shading {}: the mode of {} is {mode}; permitted: {} or wireframe; leave --shading out",
+            other.name(),
+            self.input,
+            own.name()
+        ))
     }
 
     /// The screen that it brings, pixels; scenes are drawn on any.
@@ -126,7 +167,12 @@ impl Source {
             return args.machine(screen);
         }
         if let Some(frame) = self.triangles()? {
-            return args.adapted(screen, |machine: &Plan| Ok(needs(frame, machine)));
+            return args.adapted(screen, |machine: &Plan| {
+                Ok(match self.shading() {
+                    Shading::Wireframe => needs(&lines_of(frame, machine, HiddenLines::Removed), machine),
+                    _ => needs(frame, machine),
+                })
+            });
         }
         let mut drawn = None;
         args.adapted(screen, |machine: &Plan| {
@@ -165,7 +211,7 @@ impl Source {
     /// The frame as the machine draws it. A triangle file keeps its own size and mode; its polygons become triangles, so
     /// that machine and golden picture interpolate the same.
     pub fn frame(&self, machine: &Plan) -> Result<Frame> {
-        match (self.is_triangle_file(), self.shading) {
+        match (self.is_triangle_file(), self.shading()) {
             (true, Shading::Wireframe) => self.wireframe(machine, HiddenLines::Removed),
             (true, _) => in_triangles(self.outlined(machine)?, machine),
             (false, _) => Ok(self.sorted(machine)?.0),
@@ -180,7 +226,7 @@ impl Source {
 
     /// The frame as `raster` draws it: like `frame`, but a triangle file has its polygons, and nothing is cut at the guard band.
     pub fn whole(&self, machine: &Plan) -> Result<Frame> {
-        match (self.is_triangle_file(), self.shading) {
+        match (self.is_triangle_file(), self.shading()) {
             (true, Shading::Wireframe) | (false, _) => self.frame(machine),
             (true, _) => self.outlined(machine),
         }
@@ -202,14 +248,15 @@ impl Source {
         surface: &Surface,
         machine: &Plan,
     ) -> Result<(Frame, Option<Order>)> {
-        if self.shading == Shading::Wireframe {
-            let frame = edgewalk_golden::frame(scene, surface, self.shading.golden());
+        let shading = self.shading();
+        if shading == Shading::Wireframe {
+            let frame = edgewalk_golden::frame(scene, surface, shading.golden());
             return Ok((in_lines(&frame, machine, HiddenLines::Removed)?, None));
         }
-        let frame = match self.shading.at_pixels() {
+        let frame = match shading.at_pixels() {
             Some(method) => scene.pixel_frame(surface, method),
             None => {
-                let frame = edgewalk_golden::frame(scene, surface, self.shading.golden());
+                let frame = edgewalk_golden::frame(scene, surface, shading.golden());
                 joined(frame, scene, surface, machine)
             }
         };
@@ -229,10 +276,15 @@ impl Source {
     /// The frame with the polygons it has.
     pub fn outlined(&self, machine: &Plan) -> Result<Frame> {
         match self.triangles()? {
+            // A wireframe has no values for channels of the user's own.
+            Some(frame) if self.shading() == Shading::Wireframe => {
+                as_large(&self.input, frame, machine)?;
+                Ok(frame.clone())
+            }
             Some(frame) => fitting(&self.input, frame.clone(), machine),
             None => {
                 let (scene, surface) = self.surface(machine)?;
-                Ok(edgewalk_golden::frame(&scene, &surface, self.shading.golden()))
+                Ok(edgewalk_golden::frame(&scene, &surface, self.shading().golden()))
             }
         }
     }
@@ -240,6 +292,11 @@ impl Source {
 
 /// The edges of a frame as lines, its surfaces as triangles.
 fn in_lines(frame: &Frame, machine: &Plan, hidden: HiddenLines) -> Result<Frame> {
+    in_triangles(lines_of(frame, machine, hidden), machine)
+}
+
+/// The edges of a frame as lines, its surfaces with the polygons they have.
+fn lines_of(frame: &Frame, machine: &Plan, hidden: HiddenLines) -> Frame {
     let step = 1.0 / machine.z.max() as f64;
-    in_triangles(wireframe_in_lines(frame, golden_fill(machine), hidden, step), machine)
+    wireframe_in_lines(frame, golden_fill(machine), hidden, step)
 }

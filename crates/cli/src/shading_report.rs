@@ -2,7 +2,6 @@
 
 use crate::fast_phong::FastPhongReport;
 use crate::input::Source;
-use clap::ValueEnum;
 use edgewalk_golden::{Order, ShadingError};
 use edgewalk_scene::{Scene, Surface, Texture};
 use serde::Serialize;
@@ -43,10 +42,9 @@ impl ShadingReport {
             Texture::Absent(name) => Some(name.clone()),
             _ => None,
         };
-        let shading = source.shading.to_possible_value();
         Self {
             input: source.input.clone(),
-            shading: shading.map_or_else(String::new, |value| value.get_name().to_owned()),
+            shading: source.shading().name(),
             specular: scene.specular.name(),
             width: surface.width,
             height: surface.height,

@@ -302,3 +302,33 @@ fn the_triangle_that_is_seen_is_in_the_list_by_every_fill_rule() {
     }
     assert!(checked >= 8, "checked {checked} pixels");
 }
+
+/// A light's map has the number of the light that the triangle is drawn under, in a file and in a scene.
+#[test]
+fn maps_have_the_numbers_of_their_lights() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let shadow =
+        "shadow 8 0.001 0.25   1 0 0 0   0 1 0 0   0 0 1 0   0 0 0 1\nL  3 3 0.25   7 0 0.25   0 7 0.25\n";
+    let triangle = |x: u32| format!("T  {x} 0 0.5 1 1 1 0   {0} 0 0.5 1 1 1 0   {x} 8 0.5 1 1 1 0\n", x + 8);
+    let (first, second) = (triangle(0), triangle(8));
+    let text = format!("size 16 12\n{shadow}{shadow}{first}light 2\n{second}");
+    std::fs::write(folder.path().join("a.tri"), text).expect("written");
+    let run = |x: &str, more: &[&str]| {
+        let output = Command::new(env!("CARGO_BIN_EXE_edgewalk"))
+            .args(["explain", "a.tri", x, "1", "--adapt"])
+            .args(more)
+            .current_dir(folder.path())
+            .output()
+            .expect("the program runs");
+        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+        String::from_utf8(output.stdout).expect("text")
+    };
+    for (x, light) in [("1", 1), ("9", 2)] {
+        let told: Value = serde_json::from_str(&run(x, &["--json"])).expect("one JSON value");
+        let lights: Vec<_> =
+            told["shadows"].as_array().expect("maps").iter().map(|map| &map["light"]).collect();
+        assert_eq!((lights, &told["version"]), (vec![&light.into()], &serde_json::json!([1, 1])), "{told}");
+        let page = run(x, &[]);
+        assert!(page.contains(&format!("\nlight {light}'s map:")), "{page}");
+    }
+}

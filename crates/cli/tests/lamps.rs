@@ -107,21 +107,60 @@ fn several_lights_are_drawn_one_after_the_other_and_added() {
         let all = bound(&report["comparison"]);
         assert!(all <= sum + 1e-9 && all > 0.7 * sum, "{all} of {sum}");
     }
-    let (mut checked, mut cut) = (0, 0);
+    let (mut checked, mut cut, mut brightest) = (0, 0, 0);
     for (at, color) in colors(&folder.path().join("r/image.png")).into_iter().enumerate() {
         for channel in 0..3 {
             let sum: u32 = alone.iter().map(|picture| u32::from(picture[at][channel])).sum();
             assert_eq!(u32::from(color[channel]), sum.min(255), "pixel {at}");
             (checked, cut) = (checked + 1, cut + u32::from(sum > 255));
+            brightest = if sum > 255 { at } else { brightest };
         }
     }
     println!("{checked} colours, {cut} of them cut");
     assert!(checked == 96 * 72 * 3 && cut > 50);
-    // `explain` has each of them.
-    let explain = [&["explain", "s.toml", "40", "30", "--shading", "phong", "--json"], &SMALL[..], &LAMP];
-    let output = edgewalk(folder.path(), &explain.concat()).output().unwrap();
-    let told: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
-    assert_eq!(told["shaded"].as_array().unwrap().len(), 3);
+    // `explain` has each of them, and their sum as the machine stores it.
+    for at in [30 * 96 + 40, brightest] {
+        let [x, y] = [at % 96, at / 96].map(|number| number.to_string());
+        let explain = [&["explain", "s.toml", &x, &y, "--shading", "phong", "--json"], &SMALL[..], &LAMP];
+        let output = edgewalk(folder.path(), &explain.concat()).output().unwrap();
+        let told: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+        assert_eq!(told["shaded"].as_array().unwrap().len(), 3);
+        let drawn = colors(&folder.path().join("r/image.png"))[at];
+        assert_eq!(told["stored"]["rgb"], serde_json::json!(drawn), "{}", told["not_stored"]);
+    }
+}
+
+/// What an error advises draws the picture, or the error says that no machine does.
+#[test]
+fn what_is_advised_for_several_lights_works() {
+    let folder = tempfile::tempdir().unwrap();
+    let render = [&["render", "s.toml", "--shading", "phong", "--out", "r"], &SMALL[..]].concat();
+    let at_point = ["--set", "shade.light=positional"];
+    scene(folder.path(), &format!("{BULB}{FLOOD}"));
+    let mut advised = 0;
+    for more in [&["--adapt"][..], &["--set", "shade.kind=phong"]] {
+        let (code, error) = run(folder.path(), &[&render[..], more].concat());
+        assert!(code == Some(2) && error.contains(&at_point.join(" ")), "{more:?}: {error}");
+        assert!(!error.contains("shade.lights"), "{more:?}: {error}");
+        let (code, error) = run(folder.path(), &[&render[..], more, &at_point].concat());
+        assert_eq!(code, Some(0), "{more:?}: {error}");
+        advised += 1;
+    }
+    scene(folder.path(), &format!("{SUN}{BULB}"));
+    for more in [
+        &["--adapt"][..],
+        &[&["--adapt"][..], &at_point].concat(),
+        &["--set", "shade.kind=phong"],
+        &["--set", "shade.kind=phong", "--set", "shade.lights=2"],
+        &LAMP,
+    ] {
+        let (code, error) = run(folder.path(), &[&render[..], more].concat());
+        let said = "no machine with shade.kind = phong draws both kinds in one picture";
+        assert!(code == Some(2) && error.contains(said) && !error.contains("--set"), "{more:?}: {error}");
+        advised += 1;
+    }
+    let (code, error) = run(folder.path(), &[&render[..], &["--engine", "golden"]].concat());
+    assert_eq!((code, advised), (Some(0), 7), "{error}");
 }
 
 /// Every step by the numbers of the one before, in f64, and at the end the very colour of the picture.
@@ -258,7 +297,7 @@ fn faults_end_with_a_remedy() {
     let cases: [(&str, &[&str], &[&str]); 10] = [
         (BULB, &render, &["light 1", "shade.light=positional", "--engine golden"]),
         (SUN, &lamp, &["a directional light", "shade.light=directional"]),
-        (&sunny, &lamp, &["light 2", "a directional light", "shade.light=directional"]),
+        (&sunny, &lamp, &["light 2 is a directional light", "light 1 stands at a point", "--engine golden"]),
         (&both, &verify, &["2 lights", "take 1", "render", "--engine golden"]),
         (&bright, &lamp, &["highlight of", "shade.light = positional", "at most 1", "weaker light"]),
         (&soft, &lamp, &["exponent 0.5", "take 1"]),

@@ -15,6 +15,10 @@ S  3.5 20.5 0.5 1 1 0 0   30.5 20.5 0.5 1 1 0 0
 S  7 7 0.5 1 1 1 0   7 7 0.5 1 1 1 0
 ";
 
+const TRIANGLE: &str = "size 32 24\nT 2 1 0.5 1 0 0 0   30 3 0.5 0 1 0 0   5 22 0.5 0 0 1 0\n";
+const TRIANGLE_WITH_OWN_CHANNEL: &str =
+    "size 32 24\nextra 1\nT 2 1 0.5 1 0 0 0   30 3 0.5 0 1 0 0   5 22 0.5 0 0 1 0\nX 1 2 3\n";
+
 const LINES: [&str; 2] = ["--set", "polygon.lines=yes"];
 
 fn folder(file: &str) -> tempfile::TempDir {
@@ -126,6 +130,43 @@ fn malformed_lines_name_place_and_remedy() {
         assert_eq!(code, Some(2), "{file}: {error}");
         assert!(parts.iter().all(|part| error.contains(part)), "{file}: {error}");
     }
+}
+
+/// A wireframe of a file has needs of its own: lines, and no channels of the user's own.
+#[test]
+fn adapt_draws_the_wireframe_of_a_file() {
+    let (plain, own) = (folder(TRIANGLE), folder(TRIANGLE_WITH_OWN_CHANNEL));
+    let mut checked = 0;
+    for (folder, command) in [
+        (&plain, &["render", "a.tri", "--out", "o"][..]),
+        (&plain, &["replay", "a.tri", "--out", "r.json"]),
+        (&own, &["render", "a.tri", "--out", "o"]),
+        (&own, &["render", "a.tri", "--out", "o", "--engine", "golden"]),
+        (&own, &["replay", "a.tri", "--out", "r.json"]),
+    ] {
+        let arguments = [command, &["--shading", "wireframe", "--adapt"]].concat();
+        let (code, error) = ended(&edgewalk(folder.path(), &arguments).output().expect("runs"));
+        assert_eq!(code, Some(0), "{arguments:?}: {error}");
+        checked += 1;
+    }
+    assert_eq!(checked, 5);
+}
+
+/// The command that a recording of a wireframe names explains the wireframe: inside the triangle its black surface, pushed back.
+#[test]
+fn explain_shows_the_wireframe_of_a_file() {
+    let folder = folder(TRIANGLE);
+    let replay = [&["replay", "a.tri", "--shading", "wireframe", "--out", "r.json"][..], &LINES].concat();
+    let (code, error) = ended(&edgewalk(folder.path(), &replay).output().expect("runs"));
+    assert_eq!(code, Some(0), "{error}");
+    let recording = std::fs::read_to_string(folder.path().join("r.json")).expect("a recording");
+    let recording: serde_json::Value = serde_json::from_str(&recording).expect("one JSON value");
+    let command = recording["command"].as_str().expect("a command").replace("{x} {y}", "12 10");
+    let words: Vec<&str> = command.split(' ').skip(1).chain(["--json"]).collect();
+    let output = edgewalk(folder.path(), &words).output().expect("runs");
+    let told: serde_json::Value = serde_json::from_slice(&output.stdout).expect("one JSON value");
+    assert_eq!(told["stored"], serde_json::json!({"id": 0, "z": 8_388_609, "rgb": [0, 0, 0]}), "{command}");
+    assert_eq!(told["rgb"], serde_json::json!([0.0, 0.0, 0.0]), "{told}");
 }
 
 /// Every word of the machine's tools takes them: vectors, the netlist beside the model, replay, explain.

@@ -147,3 +147,50 @@ fn layers_of_shaded_colours_have_their_own_bound() {
     }
     assert_eq!(checked, 8);
 }
+
+/// A file is drawn in its own mode or as a wireframe; another method is refused by every command, never left aside.
+#[test]
+fn a_file_names_its_own_mode() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    let triangle = "T 2 1 0.5 1 0 0 0   30 3 0.5 1 0 0 0   5 22 0.5 1 0 0 0\n";
+    let lit = "view 0 0 1\nsun 0 0 1 0.9\nmaterial 0.1 0.8 0 1\n";
+    let normals = "N 0 0 1  0 0 1  0 0 1\n";
+    let all = ["constant", "constant-averaged", "gouraud", "phong", "fast-phong"];
+    let (mut refused, mut drawn) = (0, 0);
+    for (mode, own) in
+        [("gouraud", "gouraud"), ("flat", "constant"), ("phong", "phong"), ("fast-phong", "fast-phong")]
+    {
+        let shaded = mode.contains("phong");
+        let (lit, normals) = if shaded { (lit, normals) } else { ("", "") };
+        std::fs::write(folder.join("a.tri"), format!("size 32 24\nmode {mode}\n{lit}{triangle}{normals}"))
+            .unwrap();
+        let commands: [&[&str]; 5] = [
+            &["explain", "a.tri", "12", "10"],
+            &["render", "a.tri", "--out", "o"],
+            &["replay", "a.tri", "--out", "r.json"],
+            &["demo", "a.tri", "--out", "d"],
+            &["judge", "a.tri", "none.npy"],
+        ];
+        for other in all.into_iter().filter(|other| *other != own) {
+            for command in commands {
+                let (code, error) = run(folder, &[command, &["--adapt", "--shading", other]].concat());
+                let permitted = format!("permitted: {own} or wireframe; leave --shading out");
+                let found = format!("--shading {other}: the mode of a.tri is {mode}");
+                assert!(code == Some(2) && error.contains(&found) && error.contains(&permitted), "{error}");
+                refused += 1;
+            }
+        }
+        for way in [own, "wireframe"] {
+            let (code, error) = run(folder, &[commands[0], &["--adapt", "--shading", way]].concat());
+            assert_eq!(code, Some(0), "{mode} {way}: {error}");
+            drawn += 1;
+        }
+    }
+    assert_eq!((refused, drawn), (80, 8));
+    // What a machine for normals says of a file without them holds for files, too.
+    std::fs::write(folder.join("a.tri"), format!("size 32 24\n{triangle}")).unwrap();
+    let (code, error) = run(folder, &["render", "a.tri", "--out", "o", "--set", "shade.kind=phong"]);
+    assert!(code == Some(2) && error.contains("a triangle file with such a mode"), "{error}");
+    assert!(!folder.join("o").exists() && !folder.join("d").exists() && !folder.join("r.json").exists());
+}

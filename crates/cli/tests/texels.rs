@@ -164,6 +164,46 @@ fn explain_shows_place_texel_address_word_and_product() {
     assert_eq!(checked, 6);
 }
 
+/// The bound of a colour holds with the machine's texel: where golden's picture has another, `explain` says so, and why.
+#[test]
+fn explain_says_where_golden_has_another_texel() {
+    let folder = tempfile::tempdir().unwrap();
+    let of_three = "3 1  ff0000 00ff00 0000ff";
+    let of_four = "2 2  ff0000 00ff00 0000ff ffffff";
+    let mut checked = 0;
+    for (texture, u, other) in [
+        (of_three, "0.3328", Some(("sides", "the sides of its picture do not divide 256"))),
+        (of_three, "0.25", None),
+        (of_four, "0.3328", None),
+        (of_four, "0.4999999", Some(("neighbour", "the terms name a neighbour"))),
+    ] {
+        let file = format!(
+            "size 32 32\nmode phong\nview 0 0 1\nsun 0 0 1 0.9\nmaterial 0.1 0.8 0 1\ntexture {texture}\n\
+             T 1 1 0.5 1 1 1 0   31 1 0.5 1 1 1 0   1 31 0.5 1 1 1 0\n\
+             N 0 0 1  0 0 1  0 0 1\nUV {u} 0.75 {u} 0.75 {u} 0.75\n"
+        );
+        std::fs::write(folder.path().join("a.tri"), file).unwrap();
+        let told = |more: &[&str]| {
+            let explain = [&["explain", "a.tri", "5", "5", "--adapt"], more].concat();
+            String::from_utf8(edgewalk(folder.path(), &explain).output().unwrap().stdout).unwrap()
+        };
+        let json: serde_json::Value = serde_json::from_str(&told(&["--json"])).unwrap();
+        let shaded = &json["shaded"][0];
+        assert_eq!(shaded["texel"]["other_texel"].as_str(), other.map(|other| other.0), "{shaded}");
+        let off = [0, 1, 2].map(|k| {
+            let stored = json["stored"]["rgb"][k].as_f64().unwrap();
+            (stored - json["rgb"][k].as_f64().unwrap() * 255.0).abs()
+        });
+        let within = off.into_iter().all(|off| off <= shaded["bound"].as_f64().unwrap());
+        assert_eq!(within, other.is_none(), "{off:?}: {shaded}");
+        let page = told(&[]);
+        assert_eq!(page.contains(" LSB of golden's with the machine's texel\n"), other.is_some(), "{page}");
+        assert!(other.is_none_or(|(_, why)| page.contains(why)), "{page}");
+        checked += 1;
+    }
+    assert_eq!(checked, 4);
+}
+
 #[test]
 fn a_file_with_a_texture_makes_vectors_that_the_netlist_gives() {
     let folder = tempfile::tempdir().unwrap();

@@ -33,7 +33,7 @@ mod page;
 
 use active::{InPoly, in_poly};
 use additions::{Walk, walk};
-use anyhow::Result;
+use anyhow::{Result, anyhow};
 use dithered::{Dithered, dithered};
 use edges::{OnLine, on_line};
 use edgewalk_golden::polygon::{EdgeTable, fragments as polygon_fragments};
@@ -53,6 +53,7 @@ use serde::Serialize;
 use shaded::{ShadedPixel, leftward, shaded};
 use shadowed::{ShadowedPixel, shadowed};
 use std::ops::Range;
+use std::slice;
 use terms::{LitPoint, lit_point};
 
 /// Side of the shadow maps, texels.
@@ -190,7 +191,8 @@ pub fn explain(input: &Input, (x, y): (u32, u32)) -> Result<Explanation> {
         (Some(_), reason) => (None, reason),
         (None, _) => (None, None),
     };
-    let (stored, not_stored) = match stored(frame, machine, (x, y)) {
+    let drawn = if parts.is_empty() { slice::from_ref(frame) } else { &parts };
+    let (stored, not_stored) = match stored(drawn, machine, (x, y)) {
         Ok(stored) => (Some(Stored { id: input.place(stored.id), ..stored }), None),
         Err(why) => (None, Some(format!("{why:#}"))),
     };
@@ -281,12 +283,18 @@ fn unseen_way(machine: &Plan) -> Option<&'static str> {
     }
 }
 
-/// What the machine stores at a pixel, all triangles drawn.
-fn stored(frame: &Frame, machine: &Plan, pixel: (u32, u32)) -> Result<Stored> {
-    let port = to_port(frame, machine)?;
-    let Pixel { id, z, rgb } = draw_frame(machine, &port, Waits::Never)?.pixel(machine, pixel);
-    let id = usize::try_from(id).map_or(-1, |number| port.ids[number]);
-    Ok(Stored { id, z, rgb })
+/// What the machine stores at a pixel, all triangles drawn. Colours of pictures of the same triangles are added, and cut at the largest.
+fn stored(pictures: &[Frame], machine: &Plan, pixel: (u32, u32)) -> Result<Stored> {
+    let mut sum: Option<Stored> = None;
+    for frame in pictures {
+        let port = to_port(frame, machine)?;
+        let Pixel { id, z, rgb } = draw_frame(machine, &port, Waits::Never)?.pixel(machine, pixel);
+        let id = usize::try_from(id).map_or(-1, |number| port.ids[number]);
+        let before = sum.map_or([0; 3], |sum| sum.rgb);
+        let rgb = [0, 1, 2].map(|k| (before[k] + rgb[k]).min(machine.stored_color().max()));
+        sum = Some(Stored { id, z, rgb });
+    }
+    sum.ok_or_else(|| anyhow!("no picture"))
 }
 
 /// The rules of a triangle.
@@ -341,8 +349,13 @@ fn lights(
     z: f64,
 ) -> Result<Vec<ShadowedPixel>> {
     let frames = edgewalk_host::lights::frames(scene, surface, machine)?;
-    let each = frames.iter().map(|frame| shadowed(frame, machine, id, pixel, z));
-    Ok(each.collect::<Result<Vec<_>>>()?.into_iter().flatten().collect())
+    let mut all = Vec::new();
+    // The first frame is that of no light.
+    for (light, frame) in frames.iter().enumerate().skip(1) {
+        let pixel = shadowed(frame, machine, id, pixel, z)?;
+        all.extend(pixel.map(|pixel| ShadowedPixel { light, ..pixel }));
+    }
+    Ok(all)
 }
 
 /// The triangles of a scene's surface that this primitive of its frame is made of.

@@ -47,9 +47,7 @@ pub(super) fn text(of: &Explanation, color_bits: u32) -> String {
         }
         page += &super::shaded::text(pixel);
     }
-    for (place, pixel) in of.shadows.iter().enumerate() {
-        page += &super::shadowed::text(pixel, place + 1);
-    }
+    of.shadows.iter().for_each(|pixel| page += &super::shadowed::text(pixel));
     if let Some(reason) = &of.no_shadows {
         _ = writeln!(page, "\nno map on the machine: {reason}");
     }

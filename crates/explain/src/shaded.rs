@@ -36,7 +36,7 @@ pub struct ShadedPixel {
     /// What LAMP does in its place.
     #[serde(skip_serializing_if = "Option::is_none")]
     lamp: Option<Lamp>,
-    /// Proved bound of the colour against golden's, LSB.
+    /// Proved bound of the colour against golden's, LSB; golden with the machine's texel, where its own is another.
     bound: f64,
 }
 
@@ -201,7 +201,10 @@ fn table(machine: &Plan, word: u128, highlight: bool) -> String {
 
 /// As lines of text; writing to a string cannot fail.
 pub fn text(of: &ShadedPixel) -> String {
-    let mut page = format!("\nmaterial {}: colour within {:.4} LSB of golden's\n", of.material, of.bound);
+    let other = of.texel.as_ref().and_then(|texel| texel.other_texel);
+    let texel = if other.is_some() { " with the machine's texel" } else { "" };
+    let ShadedPixel { material, bound, .. } = of;
+    let mut page = format!("\nmaterial {material}: colour within {bound:.4} LSB of golden's{texel}\n");
     for term in &of.terms {
         let TermWalk { name, bits, fraction, steps, output, value, read } = term;
         _ = write!(page, "{name}, Q{bits}.{fraction}: {value:.4}, output {output}");

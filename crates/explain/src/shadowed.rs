@@ -14,6 +14,8 @@ use std::fmt::Write as _;
 /// A pixel under a light.
 #[derive(Debug, Serialize)]
 pub struct ShadowedPixel {
+    /// Number of the light, from 1.
+    pub light: usize,
     /// Exact column and line, texels, and depth less the bias, LSB of the map; of what lies behind the light they mean nothing.
     pub exact: [f64; 3],
     /// q: not above 0 behind the light.
@@ -81,6 +83,7 @@ pub fn shadowed(
     let lit = word.map_or(!on_map || d < 0, |word| d <= i64::from(word));
     let share = if lit { left.map_or(all, u64::from) } else { light::ambient(shadow, machine) };
     Ok(Some(ShadowedPixel {
+        light: state.light,
         exact: [column / q, line / q, (depth / q - shadow.bias_of(id)) * far],
         weight: q,
         values,
@@ -92,11 +95,11 @@ pub fn shadowed(
     }))
 }
 
-/// Like `shadowed`, in words; `place`: the light's number, from 1.
-pub fn text(pixel: &ShadowedPixel, place: usize) -> String {
-    let ShadowedPixel { exact: [x, y, z], weight, values, found: [tx, ty, d], word, left, lit, share } =
+/// Like `shadowed`, in words.
+pub fn text(pixel: &ShadowedPixel) -> String {
+    let ShadowedPixel { light, exact: [x, y, z], weight, values, found: [tx, ty, d], word, left, lit, share } =
         pixel;
-    let mut t = format!("\nlight {place}'s map: texel ({x:.6}, {y:.6}), depth {z:.6} LSB; q {weight:.6}\n");
+    let mut t = format!("\nlight {light}'s map: texel ({x:.6}, {y:.6}), depth {z:.6} LSB; q {weight:.6}\n");
     let named = LIGHT_SPACE.iter().zip(values).map(|(name, value)| format!("{name} {value}"));
     _ = writeln!(t, "  the machine: {}", named.collect::<Vec<_>>().join("  "));
     let stored = match word {

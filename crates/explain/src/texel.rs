@@ -6,6 +6,26 @@ use edgewalk_machine::{Plan, Record};
 use serde::Serialize;
 use std::fmt::Write as _;
 
+/// Why the texel of the machine is another than golden's.
+#[derive(Clone, Copy, Debug, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Other {
+    /// The terms name a neighbour of the one that golden's place lies in.
+    Neighbour,
+    /// The sides of the picture do not divide those of the machine's texture.
+    Sides,
+}
+
+impl Other {
+    /// The reason as a clause of a sentence.
+    fn why(self, machine_side: f64) -> String {
+        match self {
+            Other::Neighbour => "the terms name a neighbour of the one at its place".to_owned(),
+            Other::Sides => format!("the sides of its picture do not divide {machine_side}"),
+        }
+    }
+}
+
 /// What TEXEL does at a pixel.
 #[derive(Debug, Serialize)]
 pub struct TexelRead {
@@ -13,8 +33,14 @@ pub struct TexelRead {
     golden: [f64; 2],
     /// How far the terms may be from it, texels.
     bound: f64,
+    /// Texels of the machine along a side.
+    #[serde(skip)]
+    side: f64,
     /// Column and line that the terms name.
     texel: [u32; 2],
+    /// Why golden's picture has another texel there, if it has.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub other_texel: Option<Other>,
     /// In the memory of the textures.
     address: usize,
     /// What stands there, LSB.
@@ -58,6 +84,12 @@ impl TexelRead {
         let word = [2, 1, 0].map(|place| (word >> (place * b)) as u64 & machine.color.max());
         let exact = of.texture.exact(texel);
         let own = exact.color.to_array();
+        let place = brush.place(fragment)?;
+        let other_texel = match brush.texel(fragment) {
+            _ if texel != of.nearest(place) => Some(Other::Neighbour),
+            golden if golden != exact => Some(Other::Sides),
+            _ => None,
+        };
         let whole = 2f64.powi(bits as i32 - 1);
         let relief = of.texture.relief.as_ref();
         let colors = fragment.rgb();
@@ -70,9 +102,11 @@ impl TexelRead {
         let surface = machine.proved_budget(&machine.channels()[1]);
         let error = surface.map_or(1.0, |budget| budget.after_rounding().to_f64());
         Some(TexelRead {
-            golden: of.texture.texels_of(brush.place(fragment)?),
+            golden: of.texture.texels_of(place),
             bound: of.error,
             texel,
+            other_texel,
+            side: of.texture.side(),
             address,
             word,
             slopes,
@@ -91,6 +125,9 @@ impl TexelRead {
             "texel column {column}, line {line}: golden's place {u:.4} {v:.4}, within {bound:.6}; address {address}: red {} green {} blue {}\n",
             word[0], word[1], word[2]
         );
+        if let Some(other) = self.other_texel {
+            _ = writeln!(page, "  golden's picture has another texel there: {}", other.why(self.side));
+        }
         if let (Some(before), Some(product)) = (self.before, self.product) {
             for (k, name) in ["red", "green", "blue"].into_iter().enumerate() {
                 let error = product[k] as f64 - exact[k];

@@ -3,7 +3,7 @@
 use crate::extra;
 use anyhow::Result;
 use edgewalk_machine::keys::KEYS;
-use edgewalk_machine::{Gate, Plan, ShadeColour};
+use edgewalk_machine::{Gate, Plan, ShadeColour, ShadeLight};
 use edgewalk_scene::{Blending, Frame, Light, PixelMethod, PixelShading, ShadeMode, Shadow, Triangle};
 use std::fmt;
 
@@ -42,8 +42,8 @@ pub fn needs(frame: &Frame, machine: &Plan) -> Vec<Need> {
     match &frame.shading {
         Some(shading) => shaded(frame, shading, machine, &mut needs),
         None if machine.shade.is_there() => {
-            let why = "shade.kind: the machine shades by normals and the input has none (it would with --shading \
-                       fast-phong or phong, or with such a mode)";
+            let why = "shade.kind: the machine shades by normals and the input has none (a scene has them with \
+                       --shading fast-phong or phong, a triangle file with such a mode)";
             needs.push(need("shade.kind", "none", why.to_owned()));
         }
         None => {}
@@ -181,15 +181,18 @@ fn shaded(frame: &Frame, shading: &PixelShading, machine: &Plan, needs: &mut Vec
         let why = format!("mode {name} (--shading {name}): the machine's shade.kind is {}", kind.name());
         needs.push(need("shade.kind", name, why));
     }
-    let sun = shading.lights.iter().any(|light| matches!(light, Light::Directional { .. }));
-    if own.is_positional() && sun {
+    let far = |light: &Light| matches!(light, Light::Directional { .. });
+    let (sun, point) = (shading.lights.iter().any(far), !shading.lights.iter().all(far));
+    // By Phong a machine takes lights far away, or one at a time of those at a point: no key gives both.
+    let phong = shading.method == PixelMethod::Phong;
+    if phong && own.light == ShadeLight::Positional && sun && !point {
         let why = "a directional light: with shade.light = positional lights stand at a point";
         needs.push(need("shade.light", "directional", why.to_owned()));
     }
     let (given, most) = (shading.lights.len(), own.lights as usize);
     let permitted =
         KEYS.iter().any(|key| key.name == "shade.lights" && key.parse(&given.to_string()).is_some());
-    if given > most && permitted && (sun || !own.is_positional()) {
+    if given > most && permitted && !(phong && point) {
         let why = format!("{given} lights: the machine has terms for {most}");
         needs.push(need("shade.lights", given, why));
     }

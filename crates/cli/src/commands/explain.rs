@@ -45,9 +45,9 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
             (frame.first(first), order, Vec::new(), None)
         }
         None => {
-            let outlined = args.source.outlined(&machine)?.first(first);
-            let (frame, places) = placed(outlined.clone(), &machine)?;
-            (frame, None, places, Some(outlined))
+            let whole = args.source.whole(&machine)?.first(first);
+            let (frame, places) = placed(whole.clone(), &machine)?;
+            (frame, None, places, Some(whole))
         }
     };
     let (x, y) = (args.x, args.y);

@@ -41,9 +41,9 @@ pub struct Args {
     /// Folder of arrays, arrays (.npy), or a picture (.png)
     #[arg(value_name = "PICTURE", required = true)]
     pictures: Vec<PathBuf>,
-    /// Shading method of a scene: constant, constant-averaged, gouraud, phong, fast-phong
-    #[arg(long, value_enum, default_value_t = crate::input::Shading::Gouraud, hide_possible_values = true)]
-    shading: crate::input::Shading,
+    /// Shading method of a scene: constant, constant-averaged, gouraud, phong, fast-phong; gouraud if left out
+    #[arg(long, value_enum, hide_possible_values = true)]
+    shading: Option<crate::input::Shading>,
     /// Set the keys of the machine that the input asks for; what --set says stands
     #[arg(long)]
     adapt: bool,

@@ -94,10 +94,10 @@ impl Args {
 /// Runs the command.
 pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
     let machine = args.source.machine(machine)?;
-    if args.source.shading != Shading::FastPhong {
+    if args.source.shading() != Shading::FastPhong {
         args.fast_phong.unused()?;
     }
-    let wireframe = args.source.shading == Shading::Wireframe;
+    let wireframe = args.source.shading() == Shading::Wireframe;
     let lines_only = args.engine == Engine::Golden && wireframe;
     if args.hidden_lines && !wireframe {
         return Err(anyhow!(
@@ -167,10 +167,10 @@ fn lines(args: &Args, machine: &Plan, talk: Talk) -> Result<Verdict> {
 fn shaded(args: &Args, machine: &Plan, talk: Talk) -> Result<Verdict> {
     let spinner = spinner("shading", talk.quiet);
     let (scene, surface) = args.source.surface(machine)?;
-    if args.shadows != Shadows::Off && args.source.shading == Shading::FastPhong {
+    if args.shadows != Shadows::Off && args.source.shading() == Shading::FastPhong {
         return Err(anyhow!("--shadows: not permitted with --shading fast-phong; use --shading phong"));
     }
-    let fast = match args.source.shading {
+    let fast = match args.source.shading() {
         Shading::FastPhong => Some(args.fast_phong.draw(&scene, &surface, machine)?),
         _ => None,
     };
@@ -178,7 +178,7 @@ fn shaded(args: &Args, machine: &Plan, talk: Talk) -> Result<Verdict> {
     let (drawn, order) = match &fast {
         Some(fast) => (&fast.shaded, None),
         None => {
-            let (system, visibility) = (args.source.shading.golden(), args.shadows.golden(&scene));
+            let (system, visibility) = (args.source.shading().golden(), args.shadows.golden(&scene));
             rendered = edgewalk_golden::render(&scene, &surface, system, golden_fill(machine), &visibility);
             (&rendered.shaded, Some(&rendered.order))
         }

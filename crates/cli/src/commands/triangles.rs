@@ -6,7 +6,6 @@ use crate::machine_args::MachineArgs;
 use crate::verdict::Verdict;
 use crate::{Talk, kept, talk};
 use anyhow::{Context as _, Result, anyhow, ensure};
-use clap::ValueEnum as _;
 use edgewalk_files::Staging;
 use edgewalk_scene::{InputKind, TJoint, triangle_file};
 use serde_json::json;
@@ -88,9 +87,8 @@ fn refused(error: std::io::Error, args: &Args) -> anyhow::Error {
     if error.kind() != std::io::ErrorKind::Unsupported {
         return anyhow::Error::new(error).context(input.clone());
     }
-    let name = args.source.shading.to_possible_value();
-    let name = name.as_ref().map_or("gouraud", |name| name.get_name());
-    let other = if args.source.shading == Shading::FastPhong {
+    let name = args.source.shading().name();
+    let other = if args.source.shading() == Shading::FastPhong {
         "--shading phong or gouraud"
     } else {
         "--shading gouraud"

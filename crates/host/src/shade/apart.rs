@@ -8,6 +8,7 @@
 //! than all parts together.
 
 use super::bound::Proof;
+use super::lights::one_kind;
 use anyhow::{Result, anyhow};
 use edgewalk_machine::Plan;
 use edgewalk_scene::{Blending, Frame, Material, PixelShading};
@@ -22,6 +23,7 @@ pub fn apart(frame: &Frame, machine: &Plan) -> Result<Option<Vec<Frame>>> {
         Some(shading) if machine.shade.is_positional() && shading.lights.len() > 1 => shading,
         _ => return Ok(None),
     };
+    one_kind(shading, machine)?;
     if frame.blend != Blending::Off || frame.passes().len() > 1 {
         return Err(anyhow!(
             "{} lights: the machine draws a picture for each, and a surface is seen through; take one light, or kt = 0, or draw with --engine golden",

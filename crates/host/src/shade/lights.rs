@@ -17,6 +17,28 @@ pub struct Lamp {
     pub point: Option<Point>,
 }
 
+/// Whether a light is far away.
+fn is_far(light: &Light) -> bool {
+    matches!(light, Light::Directional { .. })
+}
+
+/// Accepts the lights of a frame for a machine with `shade.kind = phong`: all far away, or all at a point.
+///
+/// # Errors
+/// Both kinds: the first light of each.
+pub fn one_kind(shading: &PixelShading, machine: &Plan) -> Result<()> {
+    let place = |far: bool| shading.lights.iter().position(|light| is_far(light) == far);
+    match (place(true), place(false)) {
+        (Some(far), Some(near)) if machine.shade.normalises() => Err(anyhow!(
+            "light {} is a directional light and light {} stands at a point: no machine with shade.kind = phong draws both kinds \
+             in one picture; take lights of one kind, or draw with --engine golden",
+            far + 1,
+            near + 1
+        )),
+        _ => Ok(()),
+    }
+}
+
 /// A cosine at the vertices, and in the middles of the edges opposite them.
 pub type Nodes = [[f64; 3]; 2];
 
@@ -24,8 +46,18 @@ impl Lamp {
     /// The lights of the frame.
     ///
     /// # Errors
-    /// More than the machine has terms for, or one that weakens with distance or direction: a table holds its intensity.
+    /// Lights of a kind that the machine does not draw, or more than it has terms for. A light that weakens with distance or direction: a
+    /// table holds its intensity.
     pub fn all(shading: &PixelShading, machine: &Plan) -> Result<Vec<Lamp>> {
+        one_kind(shading, machine)?;
+        let far_away = machine.shade.normalises() && !machine.shade.is_positional();
+        if let Some(place) = shading.lights.iter().position(|light| far_away && !is_far(light)) {
+            return Err(anyhow!(
+                "light {}: with shade.kind = phong N·L is linear, so every light is directional; add --set shade.light=positional, or \
+                 draw with --engine golden",
+                place + 1
+            ));
+        }
         let (given, most) = (shading.lights.len(), machine.shade.lights as usize);
         if given > most {
             let remedy = if machine.shade.is_positional() {
@@ -49,16 +81,9 @@ impl Lamp {
                 Ok(Lamp { light: *light, intensity, point: Some(point) })
             }
             Light::Directional { intensity, .. } => Ok(Lamp { light: *light, intensity, point: None }),
-            Light::Positional { intensity, attenuation: Attenuation::NONE, .. }
-                if !machine.shade.normalises() =>
-            {
+            Light::Positional { intensity, attenuation: Attenuation::NONE, .. } => {
                 Ok(Lamp { light: *light, intensity, point: None })
             }
-            _ if machine.shade.normalises() => Err(anyhow!(
-                "light {}: with shade.kind = phong N·L is linear, so every light is directional; add --set shade.light=positional, or \
-                 draw with --engine golden",
-                place + 1
-            )),
             Light::Positional { .. } | Light::Flood { .. } => Err(anyhow!(
                 "light {}: its intensity is not the same everywhere, and the machine's tables hold one; take a directional \
                  light or a positional one that does not weaken, or draw with --engine golden",

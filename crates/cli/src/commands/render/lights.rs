@@ -24,7 +24,7 @@ pub fn run(args: &Args, machine: &Plan, talk: Talk) -> Result<Verdict> {
     if source.is_triangle_file() {
         return Err(anyhow!("--shadows: a triangle file brings its own, the line `shadow`"));
     }
-    if args.shadows == Shadows::Ray || source.shading != Shading::Gouraud {
+    if args.shadows == Shadows::Ray || source.shading() != Shading::Gouraud {
         return Err(anyhow!(
             "--shadows: the machine has maps under --shading gouraud; draw others with --engine golden"
         ));
