@@ -113,6 +113,26 @@ fn too_many_surfaces_name_what_is_possible() {
     assert!(few.contains("add --set shade.material_bits=7 or --set shade.colour=multiply"), "{few}");
 }
 
+/// A colour without light is its table's entry and no more: its error is its bound, to the last bits of f64.
+#[test]
+fn errors_that_reach_their_bound_are_not_beyond() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    let colour = "0.13 0.85 0.76 0";
+    let flat = format!(
+        "size 16 16\nmode phong\nview 0 0 1\nmaterial 0.2 0.6 0.3 20\n\
+         T 1 1 0.5 {colour}  14 2 0.5 {colour}  2 14 0.5 {colour}\nN 0 0 1  0 0 1  0 0 1\n"
+    );
+    std::fs::write(folder.join("a.tri"), flat).unwrap();
+    let output = edgewalk(folder, &["render", "a.tri", "--adapt", "--json", "--out", "r"]).output().unwrap();
+    assert_eq!(ended(&output), (Some(0), String::new()));
+    let shaded = &report(&output)["comparison"]["shaded"];
+    println!("{shaded}");
+    let of_bound = shaded["of_bound"].as_f64().unwrap();
+    assert!((of_bound - 1.0).abs() < 1e-9, "{shaded}");
+    assert_eq!((&shaded["pixels"], &shaded["beyond"]), (&78.into(), &0.into()), "{shaded}");
+}
+
 /// A surface of two triangles, one over the other; `between` stands between them.
 fn two_shaded(mode: &str, between: &str) -> String {
     format!(

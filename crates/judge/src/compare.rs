@@ -17,7 +17,7 @@ mod lit;
 mod tests;
 
 use crate::shaded::{Allowed, Shaded};
-use crate::verdict::Verdict;
+use crate::verdict::{Verdict, within};
 use channel::Tally;
 pub use channel::{ChannelError, DepthAndColor, ExtraError, Spread};
 pub use counts::Counts;
@@ -286,7 +286,7 @@ fn blended(
             let bound = layers.bound[i] + tally.color.step;
             found.bound = found.bound.max(bound);
             found.of_bound = found.of_bound.max(error / bound);
-            found.beyond += u64::from(error.is_nan() || error > bound + 1e-9);
+            found.beyond += u64::from(!within(error, bound));
         } else {
             c.background_wrong += u64::from(!tally.is_uncolored(i, golden, drawn));
         }

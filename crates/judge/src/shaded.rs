@@ -1,5 +1,6 @@
 //! What golden allows a machine to show at each pixel of a shaded frame.
 
+use crate::verdict::within;
 use edgewalk_golden::{PixelBrush, Texel, fragments};
 use edgewalk_host::raster::Raster;
 use edgewalk_host::shade::{Proof, Textured};
@@ -206,8 +207,9 @@ impl<'a> Allowed<'a> {
         found.bound_above_1 += u64::from(bound > 1.0);
         found.of_bound = found.of_bound.max(error / bound);
         found.at_horizon += u64::from(list.len() > 1);
-        found.other_branch += u64::from(list.len() > 1 && off(&list[0]) > bound && error <= bound);
-        found.beyond += u64::from(error.is_nan() || error > bound);
+        found.other_branch +=
+            u64::from(list.len() > 1 && !within(off(&list[0]), bound) && within(error, bound));
+        found.beyond += u64::from(!within(error, bound));
         let from_phong = self.phong.get(&at).map_or(0.0, off);
         found.from_phong = found.from_phong.max(from_phong);
         found.mean_from_phong += from_phong;

@@ -2,6 +2,15 @@
 
 use anyhow::{Result, anyhow};
 
+/// Errors and bounds are computed in f64, and a bound can be reached. An error exceeds it by more than this, LSB.
+pub const ROUNDING: f64 = 1e-9;
+
+/// Whether an error lies within its bound, both in LSB. Not a number never does.
+#[must_use]
+pub fn within(error: f64, bound: f64) -> bool {
+    error <= bound + ROUNDING
+}
+
 /// What a command found.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Verdict {
