@@ -106,6 +106,15 @@ fn lines_are_black_in_the_picture_of_the_accumulators() {
     }
 }
 
+/// POLY walks other edges than EDGE.
+#[test]
+fn a_machine_with_poly_has_no_picture_of_the_accumulators() {
+    let folder = tempfile::tempdir().unwrap();
+    let text = "size 16 12\nP 4 1 1 0.5 1 0 0 0  15 1 0.5 1 0 0 0  15 11 0.9 1 0 0 0  1 11 0.9 1 0 0 0\n";
+    assert!(accumulators(folder.path(), text, &["--machine", "polygon"]).is_none());
+    assert!(accumulators(folder.path(), text, &["--machine", "small", "--adapt"]).is_some());
+}
+
 /// The command that the demo prints shows the demo's input on the demo's machine, whatever a shell makes of its words.
 #[test]
 fn the_printed_replay_is_of_the_same_machine() {

@@ -1,7 +1,8 @@
 //! The accumulators of the channels before their outputs are rounded: how far they are from the exact plane.
 
+use crate::unseen_way;
 use edgewalk_host::port::PortFrame;
-use edgewalk_machine::{Channel, EdgeKind, Fill, Plan, PortVertex, Role};
+use edgewalk_machine::{Channel, Plan, PortVertex, Role};
 use edgewalk_model::Events;
 use edgewalk_model::edge::Edge;
 use edgewalk_model::setup::Setup;
@@ -16,9 +17,9 @@ pub fn prim(machine: &Plan, triangle: &[PortVertex; 3]) -> Option<Prim<MAX_CHANN
 
 /// The depth's accumulator at every pixel that shows a triangle, minus the exact depth there, over the largest error that its
 /// additions can have made (bound 2): -1 to 1. A pixel without a triangle has 0, and so has one that shows a line. `ids` names for
-/// each pixel what it shows, as `port.ids` does. `None` where fill or edges are not exact.
+/// each pixel what it shows, as `port.ids` does. `None` where the way to a pixel is not that of exact edges.
 pub fn depth_error_over_bound(machine: &Plan, port: &PortFrame, ids: &[i32]) -> Option<Vec<f64>> {
-    if machine.fill != Fill::Exact || machine.edge_kind != EdgeKind::Exact {
+    if unseen_way(machine).is_some() {
         return None;
     }
     let mut map = vec![0.0; ids.len()];

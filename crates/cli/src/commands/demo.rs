@@ -24,7 +24,7 @@ use std::path::PathBuf;
 /// z_error.png and color_error.png show the error of the rounded outputs: blue to yellow up to 1 LSB, red above.
 /// z_accumulator.png shows the error of the depth's accumulator before rounding, over the bound of the additions
 /// behind the pixel. Blue is below, orange above; the scale is in the picture. Lines are black in it. It needs exact fill
-/// and exact edges.
+/// and exact edges. A machine with POLY has no such picture.
 #[derive(clap::Args)]
 #[command(after_help = "Examples:
   edgewalk demo
