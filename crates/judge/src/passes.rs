@@ -127,8 +127,16 @@ impl Passes {
             if let Some(blended) = &part.blended {
                 _ = write!(
                     t,
-                    "; {} pixels of up to {} layers within their bounds, {:.4} of one reached, {} beyond",
-                    blended.pixels, blended.layers, blended.of_bound, blended.beyond
+                    "; {} pixels of up to {} layers within {}, {:.4} of one reached, {} beyond",
+                    blended.pixels,
+                    blended.layers,
+                    if blended.no_bound.is_none() {
+                        "their bounds"
+                    } else {
+                        "1 LSB a fragment: none has a bound"
+                    },
+                    blended.of_bound,
+                    blended.beyond
                 );
             }
             t.push('\n');
