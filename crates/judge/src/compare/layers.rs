@@ -6,6 +6,7 @@
 use super::lit::{Lights, Seen, share_error};
 use super::order::apart;
 use crate::shaded::Spread;
+use crate::verdict::in_words;
 use edgewalk_golden::Step;
 use edgewalk_host::polygon::defects;
 use edgewalk_host::raster::golden_drawing;
@@ -13,7 +14,7 @@ use edgewalk_host::shade::Proof;
 use edgewalk_machine::{NoBound, Plan};
 use edgewalk_numerics::blend_error_of_golden;
 use edgewalk_scene::{Blending, Frame};
-use serde::{Serialize, Serializer};
+use serde::Serialize;
 
 /// Every pixel of a frame that is blended, or drawn in several passes.
 pub struct Layers {
@@ -68,11 +69,6 @@ impl Blended {
             "blended: {pixels} pixels, up to {layers} layers, {bound}, {of_bound:.4} of it reached, {beyond} beyond\n"
         )
     }
-}
-
-/// A reason as its text.
-fn in_words<S: Serializer>(why: &Option<NoBound>, serializer: S) -> Result<S::Ok, S::Error> {
-    why.map(|why| why.to_string()).serialize(serializer)
 }
 
 impl Layers {
@@ -165,7 +161,10 @@ impl Errors {
         let shaded = frame.shading.as_ref().zip(proof);
         let shaded = shaded.map(|(shading, proof)| Spread::new(machine, frame, shading, proof));
         let mixes = frame.passes().iter().any(|pass| pass.state.blend == Blending::Mix);
-        let of_color = if shaded.is_some() { None } else { budget(1).err() };
+        let of_color = match shaded.is_some() {
+            true => proof.and_then(|proof| proof.no_bound),
+            false => budget(1).err(),
+        };
         let no_bound = of_color.or_else(|| budget(kt.filter(|_| mixes)?).err());
         let kt = kt.map_or(0.5, error) / one;
         Errors { max: machine.color.max() as f64, front: error(1), shaded, kt, no_bound }
