@@ -130,6 +130,38 @@ fn explain_shows_the_layers_of_a_pixel() {
     }
 }
 
+/// Sums that may wrap prove nothing of a layer: no bound is told, and 1 LSB a fragment is allowed, as without layers.
+#[test]
+fn layers_of_sums_that_may_wrap_have_no_bound() {
+    let folder = tempfile::tempdir().unwrap();
+    let text = "size 640 4\nblend 1\nT 0 0 0.5 1 0 0 0   640 0 0.5 0 1 0.3 0   0 4 0.5 0 0.2 1 0\n";
+    std::fs::write(folder.path().join("a.tri"), text).unwrap();
+    let of = |arguments: &[&str]| {
+        let all = [arguments, &["--adapt", "--set", "formats.color_fraction=5"]].concat();
+        let output = edgewalk(folder.path(), &all).output().unwrap();
+        (output.status.code(), String::from_utf8(output.stdout).unwrap())
+    };
+    let why = "no bound: 8833 additions may err by 138.03125 LSB";
+    let (code, told) = of(&["explain", "a.tri", "500", "0"]);
+    let layer = told.lines().find(|line| line.starts_with("    golden ")).unwrap();
+    assert_eq!((code, layer.contains(&format!("error 4.2070, {why}"))), (Some(0), true), "{layer}");
+    let (code, told) = of(&["render", "a.tri", "--out", "r"]);
+    let line = told.lines().find(|line| line.starts_with("blended: ")).unwrap();
+    assert!(
+        line.contains(why) && line.contains("; with 1 LSB a fragment up to 1.9553 LSB are allowed"),
+        "{line}"
+    );
+    let (same, told) = of(&["render", "a.tri", "--out", "r", "--json"]);
+    let report: Value = serde_json::from_str(&told).unwrap();
+    let blended = &report["comparison"]["blended"];
+    assert_eq!((&blended["bound"], &blended["beyond"]), (&Value::Null, &604.into()), "{blended}");
+    assert!(blended["no_bound"].as_str().unwrap().starts_with(&why[10..]), "{blended}");
+    // As without layers.
+    std::fs::write(folder.path().join("a.tri"), text.replace("blend 1\n", "")).unwrap();
+    let (plain, _) = of(&["render", "a.tri", "--out", "r"]);
+    assert_eq!([code, same, plain], [Some(1); 3]);
+}
+
 #[test]
 fn a_scene_of_glass_is_sorted_and_blended_by_the_machine() {
     let folder = tempfile::tempdir().unwrap();

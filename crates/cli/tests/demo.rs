@@ -80,6 +80,41 @@ fn the_demo_is_as_readme_says() {
     assert_eq!((bar[8], bar[631]), ([70, 150, 255], [255, 150, 30]), "ends of the scale");
 }
 
+/// The picture of the accumulators of a file, whose demo has to succeed: its width and pixels, if it is drawn.
+fn accumulators(folder: &Path, text: &str, options: &[&str]) -> Option<(usize, Vec<[u8; 3]>)> {
+    let [file, out] = ["a.tri", "d"].map(|name| folder.join(name));
+    std::fs::write(&file, text).unwrap();
+    let paths = [file.to_str().unwrap(), "--out", out.to_str().unwrap()];
+    let printed = edgewalk(&[&["demo"], &paths[..], options].concat());
+    let picture = out.join("z_accumulator.png");
+    assert_eq!(printed.contains(" z_accumulator.png\n"), picture.is_file(), "{printed}");
+    picture.is_file().then(|| png(&picture))
+}
+
+/// Lines are walked with their axes exchanged: their screen may have fewer columns than they have lines.
+#[test]
+fn lines_are_black_in_the_picture_of_the_accumulators() {
+    let folder = tempfile::tempdir().unwrap();
+    let text = "size 16 12\nT 1 1 0.3 1 0 0 0  15 2 0.7 1 0 0 0  2 11 0.4 1 0 0 0\n\
+                S 0 2 0.2 1 0 0 0  16 9 0.1 1 1 0 0\nS 3 0 0.2 1 0 0 0  5 12 0.1 1 1 0 0\n";
+    let (width, map) = accumulators(folder.path(), text, &["--adapt"]).unwrap();
+    let at = |x: usize, y: usize| map[y * width + x];
+    let of_lines = [(0, 2), (8, 5), (15, 8), (3, 0), (4, 11)].map(|(x, y)| at(x, y));
+    assert_eq!(of_lines, [[0; 3]; 5]);
+    for (x, y) in [(8, 3), (2, 8), (10, 3)] {
+        assert_ne!(at(x, y), [0; 3], "the triangle at {x},{y}");
+    }
+}
+
+/// POLY walks other edges than EDGE.
+#[test]
+fn a_machine_with_poly_has_no_picture_of_the_accumulators() {
+    let folder = tempfile::tempdir().unwrap();
+    let text = "size 16 12\nP 4 1 1 0.5 1 0 0 0  15 1 0.5 1 0 0 0  15 11 0.9 1 0 0 0  1 11 0.9 1 0 0 0\n";
+    assert!(accumulators(folder.path(), text, &["--machine", "polygon"]).is_none());
+    assert!(accumulators(folder.path(), text, &["--machine", "small", "--adapt"]).is_some());
+}
+
 /// The command that the demo prints shows the demo's input on the demo's machine, whatever a shell makes of its words.
 #[test]
 fn the_printed_replay_is_of_the_same_machine() {

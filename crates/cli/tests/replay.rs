@@ -1,6 +1,6 @@
 //! `edgewalk replay` as a user runs it: what it writes, what it refuses and in which words.
 
-use crate::support::{SCREEN, TRIANGLE, edgewalk, names, run};
+use crate::support::{self, SCREEN, TRIANGLE, edgewalk, names, run};
 use std::path::Path;
 
 fn replay(folder: &Path, arguments: &[&str]) -> serde_json::Value {
@@ -117,6 +117,29 @@ fn each_channel_is_within_its_bound_of_the_truth() {
         let [largest, bound] = ["largest", "bound"].map(|key| channel[key].as_f64().expect("a number"));
         assert!(largest > 0.2 && largest <= bound + 1.0 / 1024.0, "{channel}");
     }
+}
+
+/// An edge of POLY with few fraction bits leaves its place, and colours between edges err by what that shifts: as `render` says.
+#[test]
+fn bilinear_colours_have_the_bound_of_their_edges() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let file = "size 32 24\nT 2 1 0.5 1 0 0 0   30 3 0.5 0 1 0 0   5 22 0.5 0 0 1 0\n";
+    std::fs::write(folder.path().join("t.tri"), file).expect("written");
+    let machine = ["--machine", "bilinear", "--set", "edge.fraction_bits=8"];
+    let page = replay(folder.path(), &[&["replay", "t.tri", "--out", "t.json", "-q"], &machine[..]].concat());
+    let rendered = [&["render", "t.tri", "--out", "r", "--json"], &machine[..]].concat();
+    let report = support::report(&edgewalk(folder.path(), &rendered).output().expect("runs"));
+    let kinds = page["tokens"].as_array().expect("kinds of tokens");
+    let fragment = kinds.iter().find(|kind| kind["name"] == "fragment").expect("fragments");
+    let rendered = report["comparison"]["color_bound"].as_f64().expect("a number");
+    let mut worst = 0.0f64;
+    for colour in &fragment["truth"].as_array().expect("channels")[1..4] {
+        let [largest, bound] = ["largest", "bound"].map(|key| colour[key].as_f64().expect("a number"));
+        assert!(largest <= bound + 1.0 / 1024.0, "{colour}");
+        assert!((bound - rendered).abs() < 1e-9, "{bound}, and {rendered} of render");
+        worst = worst.max(largest);
+    }
+    assert!(worst > 0.6, "{worst}: more than with edges in their places");
 }
 
 /// Passes with blending; a light's map; normals, more triangles than records at once.

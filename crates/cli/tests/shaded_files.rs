@@ -113,6 +113,53 @@ fn too_many_surfaces_name_what_is_possible() {
     assert!(few.contains("add --set shade.material_bits=7 or --set shade.colour=multiply"), "{few}");
 }
 
+/// A colour without light is its table's entry and no more: its error is its bound, to the last bits of f64.
+#[test]
+fn errors_that_reach_their_bound_are_not_beyond() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    let colour = "0.13 0.85 0.76 0";
+    let flat = format!(
+        "size 16 16\nmode phong\nview 0 0 1\nmaterial 0.2 0.6 0.3 20\n\
+         T 1 1 0.5 {colour}  14 2 0.5 {colour}  2 14 0.5 {colour}\nN 0 0 1  0 0 1  0 0 1\n"
+    );
+    std::fs::write(folder.join("a.tri"), flat).unwrap();
+    let output = edgewalk(folder, &["render", "a.tri", "--adapt", "--json", "--out", "r"]).output().unwrap();
+    assert_eq!(ended(&output), (Some(0), String::new()));
+    let shaded = &report(&output)["comparison"]["shaded"];
+    println!("{shaded}");
+    let of_bound = shaded["of_bound"].as_f64().unwrap();
+    assert!((of_bound - 1.0).abs() < 1e-9, "{shaded}");
+    assert_eq!((&shaded["pixels"], &shaded["beyond"]), (&78.into(), &0.into()), "{shaded}");
+}
+
+/// SHADE multiplies a colour of which nothing is proved: no bound is told of the product, alone or in layers.
+#[test]
+fn colours_of_sums_that_may_wrap_have_no_bound_behind_shade() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    for blend in ["", "blend 1\n"] {
+        let wide = format!(
+            "size 640 4\n{blend}mode phong\nview 0 0 1\nsun 0 0 1 0.5\nmaterial 0.2 0.6 0.3 20\n\
+             T 0 0 0.5 1 0 0 0  640 0 0.5 0 1 0.3 0  0 4 0.5 0 0.2 1 0\nN 0 0 1  0 0 1  0 0 1\n"
+        );
+        std::fs::write(folder.join("a.tri"), wide).unwrap();
+        let of = |arguments: &[&str]| {
+            let all = [arguments, &["--adapt", "--set", "formats.color_fraction=5"]].concat();
+            edgewalk(folder, &all).output().unwrap()
+        };
+        let why = "additions may err by 138.03125 LSB";
+        let output = of(&["render", "a.tri", "--json", "--out", "r"]);
+        assert_eq!(ended(&output).0, Some(1), "{blend}");
+        let found = &report(&output)["comparison"][if blend.is_empty() { "shaded" } else { "blended" }];
+        assert!(found["bound"].is_null() && found["no_bound"].as_str().unwrap().contains(why), "{found}");
+        let told = of(&["explain", "a.tri", "500", "0"]).stdout;
+        let told = String::from_utf8(told).unwrap();
+        let material = told.lines().find(|line| line.starts_with("material 0: ")).unwrap();
+        assert!(material.starts_with("material 0: no bound of the colour: ") && material.contains(why));
+    }
+}
+
 /// A surface of two triangles, one over the other; `between` stands between them.
 fn two_shaded(mode: &str, between: &str) -> String {
     format!(

@@ -1,6 +1,8 @@
 //! The accumulators of the channels before their outputs are rounded: how far they are from the exact plane.
 
-use edgewalk_machine::{Channel, EdgeKind, Fill, Plan, PortVertex};
+use crate::unseen_way;
+use edgewalk_host::port::PortFrame;
+use edgewalk_machine::{Channel, Plan, PortVertex, Role};
 use edgewalk_model::Events;
 use edgewalk_model::edge::Edge;
 use edgewalk_model::setup::Setup;
@@ -14,22 +16,22 @@ pub fn prim(machine: &Plan, triangle: &[PortVertex; 3]) -> Option<Prim<MAX_CHANN
 }
 
 /// The depth's accumulator at every pixel that shows a triangle, minus the exact depth there, over the largest error that its
-/// additions can have made (bound 2): -1 to 1, and 0 where no triangle is. `ids` names for each pixel the triangle it shows. `None`
-/// if the machine's spans do not begin at pixel centres.
-pub fn depth_error_over_bound(
-    machine: &Plan,
-    triangles: &[[PortVertex; 3]],
-    ids: &[i32],
-) -> Option<Vec<f64>> {
-    if machine.fill != Fill::Exact || machine.edge_kind != EdgeKind::Exact {
+/// additions can have made (bound 2): -1 to 1. A pixel without a triangle has 0, and so has one that shows a line. `ids` names for
+/// each pixel what it shows, as `port.ids` does. `None` where the way to a pixel is not that of exact edges.
+pub fn depth_error_over_bound(machine: &Plan, port: &PortFrame, ids: &[i32]) -> Option<Vec<f64>> {
+    if unseen_way(machine).is_some() {
         return None;
     }
     let mut map = vec![0.0; ids.len()];
-    for (triangle, id) in triangles.iter().zip(0..) {
+    for (triangle, id) in port.triangles.iter().zip(&port.ids) {
+        // EDGE walks a line with its axes exchanged, or a pixel wide: its depths are not those of a plane.
+        if matches!(Role::of(triangle), Role::Line { .. }) {
+            continue;
+        }
         let plane = Plane { machine, triangle };
         each_fragment(machine, triangle, |x, y, steps, words| {
             let at = y as usize * machine.width as usize + x as usize;
-            if ids[at] == id {
+            if ids[at] == *id {
                 let bound = machine.channels()[0].error_budget(steps).steps.to_f64();
                 map[at] = plane.error(plane.weights(i64::from(x), y), words[0], 0) / bound;
             }

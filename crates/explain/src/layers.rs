@@ -28,7 +28,10 @@ pub struct Layer {
     /// Largest error of the three, LSB.
     pub error: Option<f64>,
     /// Proved bound of the error, LSB.
-    pub bound: f64,
+    pub bound: Option<f64>,
+    /// Why there is none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub no_bound: Option<String>,
 }
 
 /// Of a frame that is blended, on a machine that blends: else none.
@@ -73,7 +76,8 @@ pub fn layers(frame: &Frame, machine: &Plan, (x, y): (u32, u32)) -> Result<Vec<L
             golden,
             machine: None,
             error: None,
-            bound,
+            bound: errors.no_bound.is_none().then_some(bound),
+            no_bound: errors.no_bound.map(|why| why.to_string()),
         });
     };
     drawing.watched(y..y + 1, picture);
@@ -109,7 +113,7 @@ pub fn text(layers: &[Layer], bits: u32) -> String {
     let three = |c: [f64; 3]| c.map(|c| format!("{c:.3}")).join(" ");
     let mut text = String::new();
     for (place, layer) in layers.iter().enumerate() {
-        let Layer { id, kt, bound, .. } = layer;
+        let Layer { id, kt, bound, no_bound, .. } = layer;
         let formula = match layer.blend {
             "1" => format!("(1 - {kt:.4}) * ({}) + {kt:.4} * ({})", three(layer.front), three(layer.back)),
             "add" => format!("({}) + ({})", three(layer.front), three(layer.back)),
@@ -120,8 +124,12 @@ pub fn text(layers: &[Layer], bits: u32) -> String {
             (Some([r, g, b]), Some(error)) => format!("machine {r} {g} {b}, error {error:.4}"),
             _ => "the machine stores another number of colours here".to_owned(),
         };
-        text +=
-            &format!("    golden {} LSB of {bits} bits, {machine}, bound {bound:.4}\n", three(layer.golden));
+        let golden = three(layer.golden);
+        let bound = match (bound, no_bound) {
+            (Some(bound), _) => format!("bound {bound:.4}"),
+            (None, why) => format!("no bound: {}", why.as_deref().unwrap_or_default()),
+        };
+        text += &format!("    golden {golden} LSB of {bits} bits, {machine}, {bound}\n");
     }
     text
 }

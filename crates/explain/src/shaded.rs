@@ -37,7 +37,10 @@ pub struct ShadedPixel {
     #[serde(skip_serializing_if = "Option::is_none")]
     lamp: Option<Lamp>,
     /// Proved bound of the colour against golden's, LSB; golden with the machine's texel, where its own is another.
-    bound: f64,
+    bound: Option<f64>,
+    /// Why there is none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    no_bound: Option<String>,
 }
 
 /// The way of a term from where its record begins to the pixel: down, then along the span.
@@ -153,8 +156,10 @@ pub fn shaded(
         true => Lamp::of(machine, roots, record.gloss, output, (beam, errors.beam), read),
         false => None,
     };
-    let (material, bound) = (record.material, *feed.proof.bounds.get(id)?);
-    Some(ShadedPixel { material, terms, texel, turned, normal, lamp, bound })
+    let (material, bound, no_bound) = (record.material, *feed.proof.bounds.get(id)?, feed.proof.no_bound);
+    let bound = no_bound.is_none().then_some(bound);
+    let no_bound = no_bound.map(|why| why.to_string());
+    Some(ShadedPixel { material, terms, texel, turned, normal, lamp, bound, no_bound })
 }
 
 /// m' and the bound of the index; N·L is scaled by the table alone.
@@ -203,8 +208,11 @@ fn table(machine: &Plan, word: u128, highlight: bool) -> String {
 pub fn text(of: &ShadedPixel) -> String {
     let other = of.texel.as_ref().and_then(|texel| texel.other_texel);
     let texel = if other.is_some() { " with the machine's texel" } else { "" };
-    let ShadedPixel { material, bound, .. } = of;
-    let mut page = format!("\nmaterial {material}: colour within {bound:.4} LSB of golden's{texel}\n");
+    let within = match (of.bound, &of.no_bound) {
+        (Some(bound), _) => format!("colour within {bound:.4} LSB of golden's{texel}"),
+        (None, why) => format!("no bound of the colour: {}", why.as_deref().unwrap_or_default()),
+    };
+    let mut page = format!("\nmaterial {}: {within}\n", of.material);
     for term in &of.terms {
         let TermWalk { name, bits, fraction, steps, output, value, read } = term;
         _ = write!(page, "{name}, Q{bits}.{fraction}: {value:.4}, output {output}");

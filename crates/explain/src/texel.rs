@@ -59,8 +59,8 @@ pub struct TexelRead {
     product: Option<[u64; 3]>,
     /// The exact one by the same texel, LSB.
     exact: [f64; 3],
-    /// How far the product may be from it, LSB.
-    product_bound: f64,
+    /// How far the product may be from it, LSB; none where nothing is proved of the colour before.
+    product_bound: Option<f64>,
 }
 
 impl TexelRead {
@@ -100,7 +100,6 @@ impl TexelRead {
             })
         };
         let surface = machine.proved_budget(&machine.channels()[1]);
-        let error = surface.map_or(1.0, |budget| budget.after_rounding().to_f64());
         Some(TexelRead {
             golden: of.texture.texels_of(place),
             bound: of.error,
@@ -114,7 +113,10 @@ impl TexelRead {
             before,
             product: before.map(product),
             exact: [0, 1, 2].map(|k| colors[k] * own[k] * max),
-            product_bound: of.product_error(colors.into_iter().fold(0.0, f64::max) * max, error),
+            product_bound: surface.ok().map(|budget| {
+                let error = budget.after_rounding().to_f64();
+                of.product_error(colors.into_iter().fold(0.0, f64::max) * max, error)
+            }),
         })
     }
 
@@ -129,12 +131,14 @@ impl TexelRead {
             _ = writeln!(page, "  golden's picture has another texel there: {}", other.why(self.side));
         }
         if let (Some(before), Some(product)) = (self.before, self.product) {
+            let bound =
+                self.product_bound.map_or_else(|| "no bound".to_owned(), |bound| format!("bound {bound:.4}"));
             for (k, name) in ["red", "green", "blue"].into_iter().enumerate() {
                 let error = product[k] as f64 - exact[k];
                 _ = writeln!(
                     page,
-                    "  {name:<5}  {} x {} / max = {}, exact {:.4}, error {error:.4}, bound {:.4}",
-                    before[k], word[k], product[k], exact[k], self.product_bound
+                    "  {name:<5}  {} x {} / max = {}, exact {:.4}, error {error:.4}, {bound}",
+                    before[k], word[k], product[k], exact[k]
                 );
             }
         }

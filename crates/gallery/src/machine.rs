@@ -75,7 +75,7 @@ impl Beside {
 
     /// The figures of the exhibit's own.
     pub(crate) fn figures(&self) -> Vec<(String, String)> {
-        let Shaded { error, bound, from_phong, mean_from_phong, texels, .. } = self.shaded;
+        let Shaded { error, allowed: bound, from_phong, mean_from_phong, texels, .. } = self.shaded;
         let (who, what) = match self.method {
             PixelMethod::FastPhong => ("machine", "fast Phong"),
             PixelMethod::Phong => ("machine, Phong", "Phong"),

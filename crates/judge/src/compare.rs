@@ -17,7 +17,7 @@ mod lit;
 mod tests;
 
 use crate::shaded::{Allowed, Shaded};
-use crate::verdict::Verdict;
+use crate::verdict::{Verdict, within};
 use channel::Tally;
 pub use channel::{ChannelError, DepthAndColor, ExtraError, Spread};
 pub use counts::Counts;
@@ -258,7 +258,7 @@ fn blended(
     (golden, drawn): (&Raster, &Raster),
     mut light: Option<&mut Lights>,
 ) -> Blended {
-    let mut found = Blended::default();
+    let mut found = Blended { no_bound: layers.no_bound, ..Blended::default() };
     tally.begin(golden.coverage.len());
     c.covered = golden.coverage.iter().map(|count| u64::from(*count > 0)).sum();
     for i in 0..golden.coverage.len().min(drawn.coverage.len()) {
@@ -284,13 +284,14 @@ fn blended(
             found.pixels += 1;
             found.layers = found.layers.max(layers.stored[i]);
             let bound = layers.bound[i] + tally.color.step;
-            found.bound = found.bound.max(bound);
+            found.allowed = found.allowed.max(bound);
             found.of_bound = found.of_bound.max(error / bound);
-            found.beyond += u64::from(error.is_nan() || error > bound + 1e-9);
+            found.beyond += u64::from(!within(error, bound));
         } else {
             c.background_wrong += u64::from(!tally.is_uncolored(i, golden, drawn));
         }
     }
+    found.bound = found.no_bound.is_none().then_some(found.allowed);
     found
 }
 

@@ -24,6 +24,7 @@ pub use rule::Rule;
 pub use tolerance::{Asked, Tolerance};
 
 use crate::compare::{Layers, Over, all_over};
+use crate::verdict::within;
 use anyhow::{Result, bail, ensure};
 use edgewalk_golden::Fill;
 use edgewalk_host::input::cut_at_band;
@@ -192,8 +193,7 @@ impl Judge<'_> {
     }
 
     fn within(&self, pixel: usize, errors: [f64; 2]) -> bool {
-        // Not a number is never within.
-        errors.into_iter().zip(self.permitted(pixel)).all(|(error, permitted)| error <= permitted + 1e-9)
+        errors.into_iter().zip(self.permitted(pixel)).all(|(error, permitted)| within(error, permitted))
     }
 
     /// Whether a pixel shows what the reference shows, in all the arrays that there are.
@@ -238,7 +238,7 @@ impl Judge<'_> {
                 Some(other) if (other.z - reference.z[pixel]).abs() <= self.tolerance.tie() => Cause::Tie,
                 Some(_) => Cause::WrongWinner,
                 None if own.is_some_and(|own| own != reference.id[pixel]) => Cause::WrongWinner,
-                None if z > self.permitted(pixel)[0] || z.is_nan() => Cause::Depth,
+                None if !within(z, self.permitted(pixel)[0]) => Cause::Depth,
                 None => Cause::Color,
             },
             // A frame that stores depths alone: the picture shows the cleared depth.

@@ -1,7 +1,7 @@
 //! A picture in passes, one for each light, beside golden's: each pass by itself, and the picture as the sum of all.
 
 use crate::compare::{Comparison, compare};
-use crate::verdict::Verdict;
+use crate::verdict::{Verdict, within};
 use anyhow::{Result, anyhow};
 use edgewalk_host::draw;
 use edgewalk_host::lights::{are_added, frames, in_passes, sum};
@@ -98,7 +98,7 @@ impl Passes {
     #[must_use]
     pub fn verdict(&self) -> Verdict {
         let screen = self.parts.first().map_or(0, |part| part.counts.screen);
-        let beyond = self.color_bound().is_some_and(|bound| self.color_error > bound + 1e-9);
+        let beyond = self.color_bound().is_some_and(|bound| !within(self.color_error, bound));
         let whole = Verdict::of(self.added, screen, self.wrong + u64::from(beyond));
         self.parts.iter().map(Comparison::verdict).fold(whole, Verdict::and)
     }
@@ -127,8 +127,16 @@ impl Passes {
             if let Some(blended) = &part.blended {
                 _ = write!(
                     t,
-                    "; {} pixels of up to {} layers within their bounds, {:.4} of one reached, {} beyond",
-                    blended.pixels, blended.layers, blended.of_bound, blended.beyond
+                    "; {} pixels of up to {} layers within {}, {:.4} of one reached, {} beyond",
+                    blended.pixels,
+                    blended.layers,
+                    if blended.no_bound.is_none() {
+                        "their bounds"
+                    } else {
+                        "1 LSB a fragment: none has a bound"
+                    },
+                    blended.of_bound,
+                    blended.beyond
                 );
             }
             t.push('\n');

@@ -1,9 +1,10 @@
 //! What golden allows a machine to show at each pixel of a shaded frame.
 
+use crate::verdict::{in_words, within};
 use edgewalk_golden::{PixelBrush, Texel, fragments};
 use edgewalk_host::raster::Raster;
 use edgewalk_host::shade::{Proof, Textured};
-use edgewalk_machine::Plan;
+use edgewalk_machine::{NoBound, Plan};
 use edgewalk_scene::{Frame, PixelMethod, PixelShading};
 use glam::DVec2;
 use serde::Serialize;
@@ -16,13 +17,20 @@ pub struct Shaded {
     pub pixels: u64,
     /// Largest error, LSB.
     pub error: f64,
-    /// Largest bound of a triangle that is seen, LSB.
-    pub bound: f64,
+    /// Largest bound of a triangle that is seen, LSB; none where none is proved.
+    pub bound: Option<f64>,
+    /// Why there is none.
+    #[serde(skip_serializing_if = "Option::is_none", serialize_with = "in_words")]
+    pub no_bound: Option<NoBound>,
+    /// Largest error that is allowed of such a triangle, LSB: its bound, and where none is proved that with 1 LSB of the fragment's own
+    /// colour.
+    #[serde(skip)]
+    pub allowed: f64,
     /// The first pixel with that bound: column, line.
     pub bound_at: [usize; 2],
     /// Pixels with a bound above 1 LSB.
     pub bound_above_1: u64,
-    /// The largest error over the bound of its triangle.
+    /// The largest error over what is allowed of its triangle.
     pub of_bound: f64,
     /// Pixels where a light is so near to the horizon that it may be above or below, or which lie next to the edge of its cone.
     pub at_horizon: u64,
@@ -73,7 +81,11 @@ impl Shaded {
     /// How large the bounds are, and where.
     fn bounds(&self) -> String {
         let ([x, y], above) = (self.bound_at, self.bound_above_1);
-        format!("bounds up to {:.4} at pixel {x},{y}, {above} above 1", self.bound)
+        let found = format!("up to {:.4} at pixel {x},{y}, {above} above 1", self.allowed);
+        match self.no_bound {
+            None => format!("bounds {found}"),
+            Some(why) => format!("no bound: {why}; with 1 LSB of the fragment's colour allowed {found}"),
+        }
     }
 
     /// As a line of text about one light of several, each drawn by itself.
@@ -200,14 +212,15 @@ impl<'a> Allowed<'a> {
         let (error, found) = (off(&nearest), &mut self.found);
         found.pixels += 1;
         found.error = found.error.max(error);
-        if bound > found.bound {
-            (found.bound, found.bound_at) = (bound, [at % self.width, at / self.width]);
+        if bound > found.allowed {
+            (found.allowed, found.bound_at) = (bound, [at % self.width, at / self.width]);
         }
         found.bound_above_1 += u64::from(bound > 1.0);
         found.of_bound = found.of_bound.max(error / bound);
         found.at_horizon += u64::from(list.len() > 1);
-        found.other_branch += u64::from(list.len() > 1 && off(&list[0]) > bound && error <= bound);
-        found.beyond += u64::from(error.is_nan() || error > bound);
+        found.other_branch +=
+            u64::from(list.len() > 1 && !within(off(&list[0]), bound) && within(error, bound));
+        found.beyond += u64::from(!within(error, bound));
         let from_phong = self.phong.get(&at).map_or(0.0, off);
         found.from_phong = found.from_phong.max(from_phong);
         found.mean_from_phong += from_phong;
@@ -216,8 +229,10 @@ impl<'a> Allowed<'a> {
 
     /// All together.
     pub fn found(self) -> Shaded {
-        let Shaded { pixels, mean_from_phong: sum, .. } = self.found;
-        Shaded { mean_from_phong: if pixels == 0 { 0.0 } else { sum / pixels as f64 }, ..self.found }
+        let (Shaded { pixels, mean_from_phong: sum, allowed, .. }, no_bound) =
+            (self.found, self.proof.no_bound);
+        let mean_from_phong = if pixels == 0 { 0.0 } else { sum / pixels as f64 };
+        Shaded { mean_from_phong, no_bound, bound: no_bound.is_none().then_some(allowed), ..self.found }
     }
 }
 

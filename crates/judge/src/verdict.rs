@@ -1,6 +1,22 @@
 //! What a check found, and when that is a pass.
 
 use anyhow::{Result, anyhow};
+use edgewalk_machine::NoBound;
+use serde::{Serialize, Serializer};
+
+/// Errors and bounds are computed in f64, and a bound can be reached. An error exceeds it by more than this, LSB.
+pub const ROUNDING: f64 = 1e-9;
+
+/// Whether an error lies within its bound, both in LSB. Not a number never does.
+#[must_use]
+pub fn within(error: f64, bound: f64) -> bool {
+    error <= bound + ROUNDING
+}
+
+/// Why there is no bound, as text in a report.
+pub(crate) fn in_words<S: Serializer>(why: &Option<NoBound>, serializer: S) -> Result<S::Ok, S::Error> {
+    why.map(|why| why.to_string()).serialize(serializer)
+}
 
 /// What a command found.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -120,7 +120,7 @@ fn every_colour_under_a_light_at_a_point_is_within_its_bound() {
             shaded.at_horizon,
             shaded.other_branch,
             shaded.error,
-            shaded.bound,
+            shaded.allowed,
             shaded.of_bound,
         );
         assert_eq!(found.verdict(), Verdict::Pass, "{settings:?}: {found:?}");

@@ -150,7 +150,7 @@ fn every_colour_of_a_relief_is_within_its_bound() {
             shaded.at_horizon,
             shaded.other_branch,
             shaded.error,
-            shaded.bound,
+            shaded.allowed,
             shaded.of_bound,
             shaded.from_phong
         );

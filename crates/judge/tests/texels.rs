@@ -127,7 +127,7 @@ fn every_texel_is_explained_and_every_colour_within_its_bound() {
             texels.unexplained,
             texels.resampled,
             shaded.error,
-            shaded.bound,
+            shaded.allowed,
             shaded.of_bound
         );
         assert_eq!(found.verdict(), Verdict::Pass, "{settings:?}: {found:?}");

@@ -23,7 +23,8 @@ use std::path::PathBuf;
 ///
 /// z_error.png and color_error.png show the error of the rounded outputs: blue to yellow up to 1 LSB, red above.
 /// z_accumulator.png shows the error of the depth's accumulator before rounding, over the bound of the additions
-/// behind the pixel. Blue is below, orange above; the scale is in the picture. It needs exact fill and exact edges.
+/// behind the pixel. Blue is below, orange above; the scale is in the picture. Lines are black in it. It needs exact fill
+/// and exact edges. A machine with POLY has no such picture.
 #[derive(clap::Args)]
 #[command(after_help = "Examples:
   edgewalk demo
@@ -56,7 +57,7 @@ pub fn run(args: &Args, asked_for: &MachineArgs, talk: Talk) -> Result<Verdict> 
         |band| ids.extend_from_slice(&band.id),
     )?;
     let port = to_port(&frame, &machine)?;
-    let dda = depth_error_over_bound(&machine, &port.triangles, &ids);
+    let dda = depth_error_over_bound(&machine, &port, &ids);
     if let Some(map) = &dda {
         picture::write_signed(&out, ACCUMULATOR, (machine.width, machine.height), map)?;
     }

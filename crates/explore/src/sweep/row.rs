@@ -6,6 +6,7 @@ use super::point::Point;
 use anyhow::Result;
 use edgewalk_judge::Verdict;
 use edgewalk_judge::report::Report;
+use edgewalk_judge::verdict::within;
 use edgewalk_machine::key::Domain;
 use edgewalk_machine::keys::KEYS;
 use edgewalk_machine::{Machine, Plan};
@@ -161,7 +162,7 @@ pub fn is_beyond(row: &Value) -> bool {
     let comparison = &row["report"]["comparison"];
     // An error that is no number is null.
     let beyond = |error: &Value, bound: &Value| {
-        bound.as_f64().is_some_and(|bound| error.as_f64().is_none_or(|error| error > bound))
+        bound.as_f64().is_some_and(|bound| error.as_f64().is_none_or(|error| !within(error, bound)))
     };
     let own = comparison["extra"].as_array().into_iter().flatten();
     row["keys"]["edge.kind"] == "exact"

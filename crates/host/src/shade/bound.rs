@@ -3,13 +3,15 @@
 use super::records::IndexErrors;
 use super::tables::{LightTables, Surfaces};
 use super::texels::Textured;
-use edgewalk_machine::{Plan, ShadeColour};
+use edgewalk_machine::{NoBound, Plan, ShadeColour};
 
 /// By triangle.
 #[derive(Clone, Debug)]
 pub struct Proof {
-    /// Largest error of a colour against golden's fast Phong, LSB.
+    /// Largest error of a colour against golden's fast Phong, LSB; with `no_bound` that with 1 LSB of the fragment's own colour.
     pub bounds: Vec<f64>,
+    /// Why none is proved: nothing is of the fragment's colour, which SHADE multiplies.
+    pub no_bound: Option<NoBound>,
     /// How far a cosine N·L may be from golden's.
     pub doubts: Vec<f64>,
     /// How far the indices may be from those of golden's cosines.
@@ -38,6 +40,7 @@ impl Proof {
         let one = f64::from(1u32 << machine.shade.table_bits);
         Proof {
             bounds: errors.iter().enumerate().map(bound).collect(),
+            no_bound: color.err().filter(|_| machine.shade.colour == ShadeColour::Multiply),
             doubts: errors.iter().map(|error| error.diffuse / one).collect(),
             errors,
             textured,

@@ -1,6 +1,7 @@
 //! The errors of each channel, their bounds, and which outputs wrapped.
 
 use super::order::Over;
+use crate::verdict::{ROUNDING, within};
 use edgewalk_golden::dither::Dither;
 use edgewalk_host::extra::{self, Label, OwnChannel};
 use edgewalk_host::polygon::defects;
@@ -145,7 +146,8 @@ impl Tally {
         let Some(Pattern { dither, width, bound }) = &self.pattern else { return };
         let at = [place % width, place / width].map(|c| c as u32);
         for (exact, drawn) in exact.into_iter().zip(drawn.rgb[i]) {
-            let explained = dither.explains(dither.nearest(drawn), exact * self.color.unit, bound + 1e-9, at);
+            let explained =
+                dither.explains(dither.nearest(drawn), exact * self.color.unit, bound + ROUNDING, at);
             self.off_pattern += u64::from(!explained);
         }
     }
@@ -177,7 +179,7 @@ impl Tally {
     }
 
     fn is_clear(&self, i: usize, drawn: &Raster) -> bool {
-        let half = 0.5 + 1e-9; // the division by 2^b - 1 rounds
+        let half = 0.5 + ROUNDING; // the division by 2^b - 1 rounds
         let near = |(exact, drawn): (f64, f64)| (exact - drawn).abs() * self.most <= half;
         let own = drawn.extra.iter().all(|values| values.at(i) == 0.0);
         own && self.clear.into_iter().zip(drawn.rgb[i]).all(near)
@@ -258,7 +260,7 @@ impl ChannelError {
 }
 
 fn beyond(error: f64, allowed: f64) -> u64 {
-    u64::from(error.is_nan() || error > allowed)
+    u64::from(!within(error, allowed))
 }
 
 /// Depth, and colour as the worst of red, green and blue.

@@ -6,19 +6,22 @@
 use super::lit::{Lights, Seen, share_error};
 use super::order::apart;
 use crate::shaded::Spread;
+use crate::verdict::in_words;
 use edgewalk_golden::Step;
 use edgewalk_host::polygon::defects;
 use edgewalk_host::raster::golden_drawing;
 use edgewalk_host::shade::Proof;
-use edgewalk_machine::Plan;
+use edgewalk_machine::{NoBound, Plan};
 use edgewalk_numerics::blend_error_of_golden;
 use edgewalk_scene::{Blending, Frame};
 use serde::Serialize;
 
 /// Every pixel of a frame that is blended, or drawn in several passes.
 pub struct Layers {
-    /// Largest error of the colour, LSB.
+    /// Largest error of the colour that is allowed, LSB: its bound, if one is proved.
     pub bound: Vec<f64>,
+    /// Why none is proved of any layer.
+    pub no_bound: Option<NoBound>,
     /// A depth test there is open.
     pub open: Vec<bool>,
     /// Colours stored there.
@@ -38,9 +41,15 @@ pub struct Blended {
     pub pixels: u64,
     /// Most colours stored at one of them.
     pub layers: u32,
-    /// The largest bound of one of them, LSB.
-    pub bound: f64,
-    /// The largest error over the bound of its pixel.
+    /// The largest bound of one of them, LSB; none where none is proved.
+    pub bound: Option<f64>,
+    /// Why there is none.
+    #[serde(skip_serializing_if = "Option::is_none", serialize_with = "in_words")]
+    pub no_bound: Option<NoBound>,
+    /// The largest error that is allowed at one of them, LSB: its bound, and where none is proved that with 1 LSB a fragment.
+    #[serde(skip)]
+    pub allowed: f64,
+    /// The largest error over what is allowed at its pixel.
     pub of_bound: f64,
     /// Pixels beyond.
     pub beyond: u64,
@@ -49,9 +58,15 @@ pub struct Blended {
 impl Blended {
     /// As a line of text.
     pub(super) fn lines(&self) -> String {
-        let Blended { pixels, layers, bound, of_bound, beyond } = self;
+        let Blended { pixels, layers, no_bound, allowed, of_bound, beyond, .. } = self;
+        let bound = match no_bound {
+            None => format!("running bound up to {allowed:.4} LSB"),
+            Some(why) => {
+                format!("no bound: {why}; with 1 LSB a fragment up to {allowed:.4} LSB are allowed")
+            }
+        };
         format!(
-            "blended: {pixels} pixels, up to {layers} layers, running bound up to {bound:.4} LSB, {of_bound:.4} of it reached, {beyond} beyond\n"
+            "blended: {pixels} pixels, up to {layers} layers, {bound}, {of_bound:.4} of it reached, {beyond} beyond\n"
         )
     }
 }
@@ -73,7 +88,9 @@ impl Layers {
             return None;
         }
         let pixels = frame.width as usize * frame.height as usize;
+        let (apart, errors) = (apart(machine, frame, None), Errors::of(machine, frame, proof));
         let mut layers = Layers {
+            no_bound: errors.no_bound,
             bound: vec![0.5; pixels], // the cleared colour is rounded
             open: vec![false; pixels],
             stored: vec![0; pixels],
@@ -82,7 +99,6 @@ impl Layers {
             branches: vec![false; pixels],
         };
         let width = frame.width as usize;
-        let (apart, errors) = (apart(machine, frame, None), Errors::of(machine, frame, proof));
         golden_drawing(frame, machine).watched(0..frame.height, |step| match step {
             Step::Tested { at, id, stored, gap } => {
                 let sure = apart.map(|apart| if stored < 0 { apart.cleared } else { apart.triangles });
@@ -127,22 +143,31 @@ pub struct Errors {
     shaded: Option<Spread>,
     /// Of k_t.
     kt: f64,
+    /// Why none of the layers has a bound: an LSB is in the place of the colour's error, or of that of k_t.
+    pub no_bound: Option<NoBound>,
 }
 
 impl Errors {
     /// The errors of this machine on this frame. `proof` holds the proved bounds of the colours that SHADE makes.
     pub fn of(machine: &Plan, frame: &Frame, proof: Option<&Proof>) -> Errors {
         let defects = defects(frame, machine);
+        let budget = |place: usize| machine.proved_budget(&machine.channels()[place]);
+        // Where none is proved an LSB is allowed, as elsewhere.
         let error = |place: usize| {
-            let budget = machine.proved_budget(&machine.channels()[place]);
-            // Where none is proved an LSB is allowed, as elsewhere.
-            budget.map_or(1.0, |budget| budget.after_rounding().to_f64()) + defects[place]
+            budget(place).map_or(1.0, |budget| budget.after_rounding().to_f64()) + defects[place]
         };
         let one = f64::from(1u32 << machine.blend.kt_bits);
         let kt = machine.channel_place("kt");
         let shaded = frame.shading.as_ref().zip(proof);
         let shaded = shaded.map(|(shading, proof)| Spread::new(machine, frame, shading, proof));
-        Errors { max: machine.color.max() as f64, front: error(1), shaded, kt: kt.map_or(0.5, error) / one }
+        let mixes = frame.passes().iter().any(|pass| pass.state.blend == Blending::Mix);
+        let of_color = match shaded.is_some() {
+            true => proof.and_then(|proof| proof.no_bound),
+            false => budget(1).err(),
+        };
+        let no_bound = of_color.or_else(|| budget(kt.filter(|_| mixes)?).err());
+        let kt = kt.map_or(0.5, error) / one;
+        Errors { max: machine.color.max() as f64, front: error(1), shaded, kt, no_bound }
     }
 
     /// How far the colours that SHADE may give this triangle at a pixel are from golden's, LSB, errors apart.
