@@ -263,6 +263,20 @@ fn gates_of_the_text_are_those_of_the_json() {
     assert_eq!(unit["est_kge"]["value"], rows[0]["est_kge_by_unit"]["pixel"]);
 }
 
+/// What Yosys 0.23 gives: TERM's memory of 64 words of 49 bits lies in four blocks, as the choice among look-up tables of 16
+/// words would cost more; of a comparison with a constant that ends in ones the lowest bits need no carry.
+#[test]
+fn memories_and_carries_of_parts_are_those_of_yosys() {
+    let phong = "default,shade.kind=phong,shade.light=positional,shade.colour=multiply,term.walk=memory,texture.kind=nearest";
+    let machines = ["--family", "ecp5"];
+    let term = &estimates(&[&[phong][..], &machines, &["--unit", "term"]].concat())[0];
+    assert_eq!((term["est_ram"].as_u64(), term["est_ff"].as_u64()), (Some(4), Some(825)), "{term}");
+    let spans: Vec<String> = [9, 17].map(|places| format!("small,fifo.span={places}")).to_vec();
+    let words: Vec<&str> = spans.iter().map(String::as_str).chain(machines).chain(["--unit", "span"]).collect();
+    let carries: Vec<_> = estimates(&words).iter().map(|of| of["est_carry"].as_u64()).collect();
+    assert_eq!(carries, [Some(26), Some(50)]);
+}
+
 /// LAMP keeps its program in a memory of flip-flops, of which some never change or are alike.
 #[test]
 fn gates_of_lamp_are_estimated() {

@@ -25,7 +25,7 @@ use std::fmt::Write as _;
 /// Estimate cells and clock of machines on an iCE40 or ECP5, or area in standard cells, from
 /// their netlists, in milliseconds, without tools.
 ///
-/// Flip-flops, carry cells, memories and multipliers are those that Yosys gives for the machine. Look-up tables, packed
+/// Flip-flops, carry cells, memories and multipliers follow Yosys' rules; docs/estimate.md says how exactly. Look-up tables, packed
 /// cells and the clock (HX8K, ECP5-25) come from a model that was fitted to synthesised machines; nine in ten of the machines that
 /// were held out lie within the error that stands behind each figure; of a part, nine in ten of the parts that were
 /// measured. `edgewalk calibrate` makes the fit anew.
@@ -168,7 +168,7 @@ impl Report {
         let errors = &self.errors;
         let _ = writeln!(
             text,
-            "carry, FF, RAM and DSP as Yosys counts them; LUT4, cells and MHz by a model: of {} machines held out ({} of them \
+            "carry, FF, RAM and DSP by Yosys' rules; LUT4, cells and MHz by a model: of {} machines held out ({} of them \
              placed) nine in ten lie within ±",
             errors.machines, errors.placed
         );

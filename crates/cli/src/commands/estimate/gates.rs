@@ -51,7 +51,7 @@ impl Report {
         }
         let _ = writeln!(
             text,
-            "FF as Yosys counts them; gates by a model: of {} machines held out nine in ten lie within ±\n\
+            "FF by Yosys' rules; gates by a model: of {} machines held out nine in ten lie within ±\n\
              memories within the machine are flip-flops; a gate is a NAND of two inputs, 24 um2",
             self.fit.machines
         );
