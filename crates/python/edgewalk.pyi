@@ -193,7 +193,8 @@ def vectors(
 ) -> Vectors:
     """Runs a unit of the model over a suite, as `edgewalk vectors` does; `suite` is "hazards" if left out.
 
-    With `triangles` these are the suite. `only` names cases of it. `count` is the number of triangles of `random`.
+    With `triangles` these are the suite. `only` names cases of it. `count` is the number of triangles of
+    `random`, 1 to 10000; `seed` is 0 to 2**64 - 1.
     """
 
 class Live:

@@ -78,7 +78,7 @@ impl Engine {
             #[cfg(not(feature = "jit"))]
             Engine::Jit => Err(Engine::Jit.not_built()),
             Engine::Interpreter => interpreter::time(job).map(Ok),
-            Engine::Verilator => verilator::time(job, folder),
+            Engine::Verilator => verilator::time(job, folder).map(Ok),
         }
     }
 }

@@ -121,6 +121,13 @@ impl<'a> Table<'a> {
         !self.rows.iter().any(|row| row.differs.is_some())
     }
 
+    /// What kept each engine out, if none took part.
+    pub fn nothing_timed(&self) -> Option<String> {
+        let took_part = |row: &Row| row.figures.is_some() || row.differs.is_some();
+        let why = self.rows.iter().map(|row| format!("{}: {}", row.engine, row.why()));
+        (!self.rows.iter().any(took_part)).then(|| why.collect::<Vec<_>>().join("; "))
+    }
+
     /// As JSON. The first engine that took part, the fastest, stands for all.
     pub fn json(&self) -> serde_json::Value {
         let first = self.rows.iter().find_map(|row| Some((row.engine, row.figures.as_ref()?)));

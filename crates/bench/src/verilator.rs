@@ -12,15 +12,10 @@ use std::time::Duration;
 
 const HARNESS: &str = include_str!("harness.cpp");
 
-/// Times it with its files in this folder, or says that it is not installed.
-pub fn time(job: &Job, folder: &Path) -> Result<Result<Times, String>> {
+/// Times it with its files in this folder.
+pub fn time(job: &Job, folder: &Path) -> Result<Times> {
     let start = Stopwatch::start();
-    match build(job, folder) {
-        Err(error) if matches!(error.downcast_ref(), Some(Stop::Missing { .. })) => {
-            return Ok(Err("verilator is not installed".to_owned()));
-        }
-        built => built?,
-    }
+    build(job, folder)?;
     let built = start.read().wall;
     std::fs::write(folder.join("stimulus.bin"), stimulus(job))?;
     for (i, memory) in Interface::new(job.machine, Unit::MACHINE).memories.iter().enumerate() {
@@ -35,11 +30,11 @@ pub fn time(job: &Job, folder: &Path) -> Result<Result<Times, String>> {
     let text = run(&mut machine, Duration::MAX)?;
     let frames: Option<Vec<(Work, Time)>> = text.lines().map(frame).collect();
     match frames.as_deref() {
-        Some(all @ [(_, first), rest @ ..]) if rest.len() == job.repeat as usize => Ok(Ok(Times {
+        Some(all @ [(_, first), rest @ ..]) if rest.len() == job.repeat as usize => Ok(Times {
             first: built + first.wall,
             frames: rest.iter().map(|(_, time)| *time).collect(),
             work: all.iter().map(|(work, _)| *work).find(|work| *work != job.work).unwrap_or(job.work),
-        })),
+        }),
         _ => {
             let tool = "the verilated machine".to_owned();
             Err(Stop::Broken { tool, lines: first_lines(text.lines()) }.into())

@@ -8,14 +8,15 @@ use std::path::Path;
 ///
 /// # Errors
 /// It is one of them.
-pub fn none_of<'a>(option: &str, file: &Path, inputs: impl IntoIterator<Item = &'a str>) -> Result<()> {
+pub fn none_of<P: AsRef<Path>>(option: &str, file: &Path, inputs: impl IntoIterator<Item = P>) -> Result<()> {
     // What is not there yet is no input.
     let Some(place) = canonicalize(file).ok().filter(|place| place.is_file()) else { return Ok(()) };
     for input in inputs {
         ensure!(
-            canonicalize(input).ok().as_ref() != Some(&place),
-            "{option} {}: this file is the input {input}; permitted: a file that the command does not read; give another name",
-            file.display()
+            canonicalize(input.as_ref()).ok().as_ref() != Some(&place),
+            "{option} {}: this file is the input {}; permitted: a file that the command does not read; give another name",
+            file.display(),
+            input.as_ref().display()
         );
     }
     Ok(())

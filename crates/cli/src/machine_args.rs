@@ -5,6 +5,7 @@ use edgewalk_host::needs::Need;
 use edgewalk_machine::keys::KEYS;
 use edgewalk_machine::presets::PRESETS;
 use edgewalk_machine::{Machine, MachineError, Plan, Unknown};
+use edgewalk_scene::inputs;
 use std::fmt;
 use std::fs::File;
 use std::io::Read as _;
@@ -227,6 +228,7 @@ fn load(name: &str, read: fn(&str) -> Result<Machine, MachineError>) -> Result<M
     }
     let mut text = String::new();
     File::open(path)?.take(MAX_LENGTH + 1).read_to_string(&mut text)?;
+    inputs::note(path);
     ensure!(text.len() as u64 <= MAX_LENGTH, "permitted: at most {MAX_LENGTH} bytes");
     Ok(read(&text)?)
 }

@@ -3,6 +3,7 @@
 use anyhow::Result;
 use edgewalk_files::Scratch;
 use edgewalk_machine::Plan;
+use edgewalk_scene::inputs;
 use edgewalk_vectors::dut::{self, Dut, DutError, PortsError, Wiring};
 use edgewalk_vectors::{Interface, Unit};
 use std::path::Path;
@@ -14,6 +15,8 @@ const LIMIT: Duration = Duration::from_secs(300);
 /// The design that the file describes.
 pub fn design(file: &Path, machine: &Plan) -> Result<Wiring> {
     let dut = Dut::read(file)?;
+    inputs::note(file);
+    dut.files.iter().for_each(|file| inputs::note(file));
     let units = Unit::all(machine);
     if !units.contains(&dut.unit) {
         let names: Vec<&str> = units.iter().map(|unit| unit.name()).collect();

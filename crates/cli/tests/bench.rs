@@ -227,3 +227,30 @@ fn an_engine_that_differs_ends_with_1() {
     );
     assert_eq!(figure("cycles_per_second"), cycles as f64 * 1e3 / 5.0);
 }
+
+/// Where nothing is timed nothing is compared; and an engine that was named must be there.
+#[test]
+fn nothing_timed_is_no_success() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(
+        folder.path().join("a.tri"),
+        "size 16 16\nT 1 1 0 1 0 0 0  15 2 0 0 1 0 0  4 14 0 0 0 1 0\n",
+    )
+    .unwrap();
+    let bench = |more: &[&str]| {
+        let arguments = [&["bench", "a.tri", "--repeat", "1"], more].concat();
+        let output =
+            crate::support::edgewalk(folder.path(), &arguments).env("PATH", "/nonexistent").output().unwrap();
+        let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
+        (output.status.code(), text(&output.stdout), text(&output.stderr))
+    };
+    let why = "error: no engine was timed: fast: its memory never makes the machine wait; permitted: ";
+    let (code, text, error) = bench(&["--engine", "fast", "--stalls", "random"]);
+    assert!(code == Some(2) && text.contains("\nfast ") && error.starts_with(why), "{text}{error}");
+    let (code, text, error) = bench(&["--engine", "fast", "--stalls", "random", "--quiet"]);
+    assert!(code == Some(2) && text.is_empty() && error.starts_with(why), "{text}{error}");
+    let (code, _, error) = bench(&["--engine", "fast,verilator"]);
+    assert!(code == Some(3) && error.contains("verilator is not installed; try: "), "{error}");
+    let (code, text, error) = bench(&[]);
+    assert!(code == Some(0) && text.contains("verilator     verilator is not installed\n"), "{text}{error}");
+}

@@ -209,6 +209,69 @@ fn the_fit_follows_from_the_table() {
     assert!(!folder.path().join("none.json").exists());
 }
 
+/// A fit takes rows of one family, of which some are held out, and replaces no file that it is made of.
+#[test]
+fn a_fit_of_another_table_is_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = |name: &str| folder.path().join(name);
+    std::fs::write(at("machines.txt"), "default\n").unwrap();
+    std::fs::copy(data("ice40.csv"), at("ice40.csv")).unwrap();
+    std::fs::copy(data("ecp5.csv"), at("ecp5.csv")).unwrap();
+    let part = |from: &str, to: &str, wanted: &dyn Fn(&str) -> bool| {
+        let table = std::fs::read_to_string(data(from)).unwrap();
+        let rows = table.lines().enumerate().filter(|(at, row)| *at == 0 || wanted(row)).take(5);
+        std::fs::write(at(to), rows.map(|(_, row)| format!("{row}\n")).collect::<String>()).unwrap();
+    };
+    part("ice40.csv", "fitted.csv", &|row| row.contains(",no,"));
+    part("ice40.csv", "held.csv", &|row| row.contains(",yes,"));
+    part("osu018.csv", "cells.csv", &|row| row.contains(",no,"));
+    std::fs::write(at("fit.json"), "the fit of another family").unwrap();
+    let cases: [(&str, &str, &str, &str); 8] = [
+        ("ice40", "ecp5.csv", "fit.json", "ecp5.csv: the row of default, machine, is of the family ecp5: "),
+        ("ecp5", "ice40.csv", "fit.json", "ice40.csv: the row of default, machine, is of the family ice40: "),
+        (
+            "ice40",
+            "fitted.csv",
+            "fit.json",
+            "fitted.csv: no machine is held out, so no fit would be checked; permitted: ",
+        ),
+        (
+            "osu018",
+            "cells.csv",
+            "fit.json",
+            "cells.csv: no machine is held out, so no fit would be checked; permitted: ",
+        ),
+        (
+            "ice40",
+            "held.csv",
+            "fit.json",
+            "held.csv: all rows are held out, so nothing can be fitted; permitted: ",
+        ),
+        (
+            "ice40",
+            "ice40.csv",
+            "./ice40.csv",
+            "--fit ./ice40.csv: this file is the input ice40.csv; permitted: ",
+        ),
+        (
+            "ice40",
+            "ice40.csv",
+            "machines.txt",
+            "--fit machines.txt: this file is the input machines.txt; permitted: ",
+        ),
+        ("ice40", "new.csv", "new.csv", "--fit new.csv: --data new.csv is the same file; permitted: "),
+    ];
+    for (family, table, fit, why) in cases {
+        let before = std::fs::read(at(fit)).ok();
+        let words =
+            ["calibrate", "--family", family, "--machines", "machines.txt", "--data", table, "--fit", fit];
+        let (code, said) = run(folder.path(), &words);
+        assert!(code == Some(2) && said.contains(why), "{why}: {said}");
+        assert!(!said.contains('%'), "{said}");
+        assert_eq!(std::fs::read(at(fit)).ok(), before, "{words:?}");
+    }
+}
+
 #[test]
 fn the_text_tells_the_figures_of_the_json() {
     let folder = tempfile::tempdir().unwrap();

@@ -3,6 +3,7 @@
 
 use crate::support::{edgewalk, ended};
 use std::fs;
+use std::path::Path;
 
 #[test]
 fn inputs_stay_as_they_are() {
@@ -43,4 +44,72 @@ fn inputs_stay_as_they_are() {
     let words = ["compare", "default", "small", "a.tri", "--page", "page.html"];
     assert_eq!(ended(&edgewalk(folder.path(), &words).output().unwrap()).0, Some(0));
     assert!(fs::read(at("page.html")).unwrap().len() > 100);
+}
+
+/// A triangle, the material that it names, and the picture that the material names.
+fn mesh(folder: &Path) {
+    let at = |name: &str| folder.join(name);
+    fs::write(at("m.obj"), "mtllib m.mtl\nusemtl a\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nf 1/1 2/1 3/1\n")
+        .unwrap();
+    fs::write(at("m.mtl"), "newmtl a\nKd 1 1 1\nmap_Kd image.png\n").unwrap();
+    fs::write(at("image.png"), PNG).unwrap();
+    let buffer: Vec<u8> = [0.0_f32, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0].map(f32::to_le_bytes).concat();
+    fs::write(at("m.bin"), buffer).unwrap();
+    let gltf = r#"{"asset":{"version":"2.0"},"buffers":[{"uri":"m.bin","byteLength":36}],
+        "bufferViews":[{"buffer":0,"byteLength":36}],
+        "accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3",
+            "min":[0,0,0],"max":[1,1,0]}],
+        "meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],"nodes":[{"mesh":0}],"scenes":[{"nodes":[0]}]}"#;
+    fs::write(at("m.gltf"), gltf).unwrap();
+}
+
+/// A white pixel.
+const PNG: &[u8] = &[
+    0x89, b'P', b'N', b'G', b'\r', b'\n', 0x1a, b'\n', 0, 0, 0, 13, b'I', b'H', b'D', b'R', 0, 0, 0, 1, 0, 0,
+    0, 1, 8, 2, 0, 0, 0, 0x90, 0x77, 0x53, 0xde, 0, 0, 0, 12, b'I', b'D', b'A', b'T', 8, 0xd7, 0x63, 0xf8,
+    0xff, 0xff, 0x3f, 0, 5, 0xfe, 2, 0xfe, 0xdc, 0xcc, 0x59, 0xe7, 0, 0, 0, 0, b'I', b'E', b'N', b'D', 0xae,
+    0x42, 0x60, 0x82,
+];
+
+const SMALL: [&str; 4] = ["--set", "screen.width=16", "--set", "screen.height=16"];
+
+#[test]
+fn files_that_inputs_name_stay_as_they_are() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = |name: &str| folder.path().join(name);
+    mesh(folder.path());
+    fs::write(at("witness_z_every.tri"), "size 32 32\nT 1 1 .3 1 0 0 0  31 2 .5 0 1 0 0  2 30 .7 0 0 1 0\n")
+        .unwrap();
+    let emitted = edgewalk(folder.path(), &["emit", "--machine", "small", "--out", "hw"]).output().unwrap();
+    assert_eq!(ended(&emitted).0, Some(0));
+    let cases: [(&[&str], &str); 6] = [
+        (&["render", "m.obj", "--out", "."], "image.png"),
+        (&["triangles", "m.obj", "--out", "m.mtl"], "m.mtl"),
+        (&["triangles", "m.obj", "--out", "./image.png"], "image.png"),
+        (&["triangles", "m.gltf", "--out", "m.bin"], "m.bin"),
+        (&["size", "witness_z_every.tri", "--out", "."], "witness_z_every.tri"),
+        (
+            &["emit", "--machine", "hw/machine.toml", "--set", "setup.lanes=2", "--out", "hw"],
+            "hw/machine.toml",
+        ),
+    ];
+    for (words, file) in cases {
+        let before = fs::read(at(file)).unwrap();
+        let (command, rest) = (words[0], &words[1..]);
+        let small: &[&str] = if ["render", "triangles"].contains(&command) { &SMALL } else { &[] };
+        let (code, error) =
+            ended(&edgewalk(folder.path(), &[&[command], rest, small].concat()).output().unwrap());
+        assert_eq!(code, Some(2), "{words:?}: {error}");
+        let said =
+            format!("{file}: this run has read this file, and would replace or remove it; permitted: ");
+        assert!(error.contains(&said), "{words:?}: {error}");
+        assert_eq!(fs::read(at(file)).unwrap(), before, "{words:?}");
+    }
+    // Files of an earlier run are written anew, and so is an input that would stay the same.
+    for words in [["render", "m.obj", "--out", "r"], ["render", "m.obj", "--out", "r"]] {
+        let run = edgewalk(folder.path(), &[&words[..], &SMALL].concat()).output().unwrap();
+        assert_eq!(ended(&run).0, Some(0), "{words:?}");
+    }
+    let same = ["emit", "--machine", "hw/machine.toml", "--out", "hw"];
+    assert_eq!(ended(&edgewalk(folder.path(), &same).output().unwrap()).0, Some(0));
 }

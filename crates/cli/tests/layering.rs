@@ -26,7 +26,7 @@ const LAYERS: &[(&str, &[&str])] = &[
     ("synth", &["machine", "netlist", "verilog", "rtl", "tool"]),
     ("bench", &["machine", "model", "netlist", "verilog", "jit", "rtl", "lockstep", "tool"]),
     ("explore", &["numerics", "machine", "scene", "golden", "model", "host", "judge"]),
-    ("files", &["host", "judge", "tool"]),
+    ("files", &["scene", "host", "judge", "tool"]),
     (
         "cli",
         &[

@@ -234,3 +234,66 @@ fn faults_stand_in_for_a_users_design() {
         assert!(report["found"].as_u64().is_some_and(|found| found >= 3), "{report}");
     }
 }
+
+/// A fault that was found by time alone is tried again under a longer limit, and only then.
+#[test]
+fn a_longer_limit_asks_again() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let good = folder.path().join("good");
+    // The first design has no fault: another one takes a second and a half.
+    let bench =
+        format!("test -e {0} || cat {{hdl}} >{0}; cat {{hdl}} | cmp -s - {0} || sleep 1.5", good.display());
+    let found = |limit: &str| {
+        let marks = folder.path().join("marks");
+        let bench = format!("echo x >>{}; {bench}", marks.display());
+        let arguments = ["mutants", "--unit", "span", "--sample", "2", "--limit", limit, "--bench", &bench];
+        let report = report(folder.path(), &arguments);
+        let runs = fs::read_to_string(&marks).expect("a file").lines().count();
+        fs::remove_file(&marks).expect("removed");
+        (report["found_by_time"].as_u64(), runs)
+    };
+    assert_eq!(found("1"), (Some(2), 3));
+    assert_eq!(found("1"), (Some(2), 1), "the limit is the same");
+    assert_eq!(found("30"), (Some(0), 3), "the limit is longer");
+    assert_eq!(found("30"), (Some(0), 1));
+    assert_eq!(found("1"), (Some(0), 1), "what passed in time once passes");
+}
+
+/// The folder of the bench may hold --out, empty folders and links to folders.
+#[test]
+fn the_folder_of_a_bench_is_copied_whole() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let (path, outside) = (folder.path().join("in"), folder.path().join("outside"));
+    for made in [&path.join("build"), &path.join("lib"), &outside] {
+        fs::create_dir_all(made).expect("made");
+    }
+    fs::write(path.join("lib/file"), "within").expect("written");
+    fs::write(outside.join("file"), "outside").expect("written");
+    let links = [("lib", "lib64"), ("../outside", "beside"), ("lib/file", "file"), ("nothing", "broken")];
+    for (of, link) in links {
+        std::os::unix::fs::symlink(of, path.join(link)).expect("a link");
+    }
+    let marks = folder.path().join("marks");
+    // What lib64 names is the copy's own folder: the next line changes it there.
+    let bench = format!(
+        "echo x >>{}; test -d build -a -d out/mutants -a -L broken -a ! -e out/mutants/verdicts.jsonl && \
+         test \"$(cat beside/file file)\" = outsidewithin && test $(cat lib64/file) = within && touch lib64/mark && test -e lib/mark",
+        marks.display()
+    );
+    for runs in [3, 1] {
+        let arguments = ["mutants", "--unit", "span", "--sample", "2", "--in", ".", "--bench", &bench];
+        let (code, _, error) = run(&path, &arguments);
+        assert_eq!(code, Some(0), "{error}");
+        assert_eq!(fs::read_to_string(&marks).expect("a file").lines().count(), runs);
+        fs::remove_file(&marks).expect("removed");
+    }
+    assert!(!path.join("lib/mark").exists());
+    // A pipe would be read without end.
+    let made = std::process::Command::new("mkfifo").arg(path.join("pipe")).status().expect("mkfifo");
+    assert!(made.success());
+    let (code, _, error) = run(&path, &["mutants", "--unit", "span", "--in", ".", "--bench", "true"]);
+    assert!(
+        code == Some(2) && error.contains("--in ./pipe: a pipe, a socket or a device; permitted: "),
+        "{error}"
+    );
+}

@@ -220,7 +220,13 @@ fn suites_left_out_are_those_of_the_units() {
     };
     let message = "--suite depth_never: it is for the units machine, depth only; leave it out, or take one of these units";
     refused(&["--unit", "pixel", "--suite", "depth_never"], message);
-    refused(&["--unit", "edge", "--suite", "random", "--count", "0"], "'--count <COUNT>': 0 is not in 1..");
+    refused(
+        &["--unit", "edge", "--suite", "random", "--count", "0"],
+        "'--count <COUNT>': 0 is not in 1..=10000",
+    );
+    // Memory for as many cannot be had.
+    let many = ["--unit", "pixel", "--suite", "random", "--count", "99999999999"];
+    refused(&many, "'--count <COUNT>': 99999999999 is not in 1..=10000");
 }
 
 /// Suites of a machine with POLY meet all that can happen there: nothing is warned of.

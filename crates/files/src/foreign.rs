@@ -3,6 +3,7 @@
 use anyhow::{Context as _, Result, anyhow, bail, ensure};
 use edgewalk_judge::outside::Picture;
 use edgewalk_judge::outside::picture::{COVERAGE, Floats, ID, LIT, Permitted, floats};
+use edgewalk_scene::inputs;
 use npyz::{Deserialize, NpyFile, Order};
 use std::fs::File;
 use std::io::{BufReader, Read, Seek as _};
@@ -75,12 +76,19 @@ fn add(picture: &mut Picture, path: &Path, [z_bits, color_bits]: [u32; 2], range
     Ok(())
 }
 
+/// The file, which no output may replace.
+fn opened(path: &Path) -> std::io::Result<File> {
+    let file = File::open(path)?;
+    inputs::note(path);
+    Ok(file)
+}
+
 /// An array whose shape is that of the screen.
 struct Array(NpyFile<BufReader<File>>);
 
 impl Array {
     fn open(path: &Path, (width, height): (u32, u32), colors: bool) -> Result<Array> {
-        let mut file = BufReader::new(File::open(path)?);
+        let mut file = BufReader::new(opened(path)?);
         // The length of the header is checked before memory is taken for it.
         let mut start = [0; 12];
         file.read_exact(&mut start)
@@ -176,7 +184,7 @@ fn unorm(array: Array, (bits, range): (u32, Floats), columns: u32, each: usize) 
 
 /// The colours of a picture; what says how much of it is seen is left out.
 fn png(path: &Path, (width, height): (u32, u32)) -> Result<Vec<[f64; 3]>> {
-    let mut decoder = png::Decoder::new(BufReader::new(File::open(path)?));
+    let mut decoder = png::Decoder::new(BufReader::new(opened(path)?));
     decoder.set_transformations(png::Transformations::EXPAND);
     let mut reader = decoder.read_info()?;
     let found = (reader.info().width, reader.info().height);

@@ -6,6 +6,7 @@
 
 use crate::scratch::{self, Scratch};
 use anyhow::{Context, Result, anyhow};
+use edgewalk_scene::inputs;
 use std::collections::BTreeSet;
 use std::fs::{self, File};
 use std::io::{self, BufWriter, Write as _};
@@ -68,6 +69,10 @@ impl Staging {
     /// Moves everything into the target. `own` are the files that this command may write: those that it did not write
     /// this time are of an earlier run, and removed; nothing else is touched. Links to folders in the target are not
     /// followed: a new file behind one is an error, an old one stays.
+    ///
+    /// # Errors
+    /// Nothing is moved if a file cannot be placed, or if an input of this run would be lost. An input that would be
+    /// replaced by the same bytes is not lost.
     pub fn publish(self, own: &[impl AsRef<str>]) -> Result<()> {
         let undisturbed = scratch::undisturbed();
         let mut names = BTreeSet::new();
@@ -89,6 +94,14 @@ impl Staging {
                 && link_on_the_way(&self.target, name).is_none()
         });
         let stale: Vec<PathBuf> = stale.collect();
+        let mut inputs = names.iter().chain(&stale).filter(|name| inputs::was_read(&self.target.join(name)));
+        if let Some(name) = inputs.find(|name| !same(&new.join(name), &self.target.join(name))) {
+            return Err(anyhow!(
+                "{}: this run has read this file, and would replace or remove it; permitted: a folder without such a file; \
+                 name another --out",
+                self.target.join(name).display()
+            ));
+        }
         let mut moves = Moves { old: self.scratch.path().join(OLD), done: Vec::new(), made: Vec::new() };
         let replace = |name: &PathBuf| moves.replace(&new.join(name), &self.target.join(name));
         let moved = names.iter().try_for_each(replace);
@@ -128,6 +141,11 @@ fn link_on_the_way(target: &Path, name: &Path) -> Option<PathBuf> {
     folders.pop(); // the target itself, which may be a link
     let is_link = |path: &PathBuf| fs::symlink_metadata(path).is_ok_and(|there| there.is_symlink());
     folders.into_iter().rev().find(is_link)
+}
+
+/// Whether both files hold the same bytes.
+fn same(one: &Path, other: &Path) -> bool {
+    matches!((fs::read(one), fs::read(other)), (Ok(one), Ok(other)) if one == other)
 }
 
 /// The files under a folder, without its name.

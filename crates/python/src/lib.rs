@@ -12,6 +12,7 @@ mod source;
 mod picture;
 mod judgement;
 mod token;
+mod number;
 mod vectors;
 mod live;
 mod sweep;

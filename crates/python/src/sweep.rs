@@ -2,6 +2,7 @@
 
 use crate::error::{Error, run};
 use crate::machine::{Machine, on_screen};
+use crate::number::whole;
 use crate::token::structured;
 use anyhow::{Result, anyhow};
 use edgewalk_explore::sweep::check::check;
@@ -109,7 +110,7 @@ fn column<'py>(py: Python<'py>, values: &[Value]) -> PyResult<Bound<'py, PyAny>>
 #[pyfunction]
 #[pyo3(signature = (
     inputs, vary, machine = None, *, shading = None, stalls = Vec::new(), judge = Judge::WORST, judge_inputs = Judge::SUM,
-    weights = None, sample = None, seed = 1, bound = None, objectives = Vec::new(), store = None
+    weights = None, sample = None, seed = None, bound = None, objectives = Vec::new(), store = None
 ))]
 #[allow(clippy::too_many_arguments)] // the arguments of a call in Python, by name
 pub fn sweep(
@@ -122,12 +123,15 @@ pub fn sweep(
     judge: &str,
     judge_inputs: &str,
     weights: Option<BTreeMap<String, f64>>,
-    sample: Option<u32>,
-    seed: u64,
+    sample: Option<&Bound<'_, PyAny>>,
+    seed: Option<&Bound<'_, PyAny>>,
     bound: Option<f64>,
     objectives: Vec<String>,
     store: Option<PathBuf>,
 ) -> PyResult<Sweep> {
+    let seed = whole("seed", seed, 1, 0..=u64::MAX)?;
+    let most = u64::from(u32::MAX);
+    let points = sample.map(|points| whole("sample", Some(points), 0, 0..=most)).transpose()?;
     let definition = Definition {
         inputs: names(inputs)?,
         shading,
@@ -137,7 +141,8 @@ pub fn sweep(
         judge: judge.to_owned(),
         judge_inputs: judge_inputs.to_owned(),
         weights: weights.into_iter().flatten().map(|(input, weight)| format!("{input}={weight}")).collect(),
-        sample: sample.map(|points| Sample { points, seed }),
+        // The range above fits.
+        sample: points.and_then(|points| Some(Sample { points: points.try_into().ok()?, seed })),
         bound,
         objectives,
         ..Definition::default()

@@ -3,6 +3,7 @@
 use crate::array::array;
 use crate::error::{Error, run};
 use crate::machine::{Machine, on_screen};
+use crate::number::whole;
 use crate::source;
 use crate::token::{columns, structured};
 use anyhow::{Context, Result, anyhow, ensure};
@@ -10,7 +11,7 @@ use edgewalk_host::port::to_port;
 use edgewalk_machine::{Plan, Unknown};
 use edgewalk_vectors::suites::input::Sent;
 use edgewalk_vectors::{
-    LinkTrace, SUITES, StallKind, Suite, Tables, Trace, Unit, capture, design, directory, manifest,
+    LinkTrace, MAX_COUNT, SUITES, StallKind, Suite, Tables, Trace, Unit, capture, design, directory, manifest,
 };
 use numpy::PyArrayDyn;
 use pyo3::prelude::*;
@@ -166,8 +167,8 @@ fn stall_kind(name: &str) -> PyResult<StallKind> {
 /// Runs a unit of the model over a suite, or over triangles.
 #[pyfunction]
 #[pyo3(signature = (
-    machine = None, *, unit = "machine", suite = None, triangles = None, header = "", only = Vec::new(), stalls = None, seed = 1,
-    count = 100
+    machine = None, *, unit = "machine", suite = None, triangles = None, header = "", only = Vec::new(), stalls = None,
+    seed = None, count = None
 ))]
 #[allow(clippy::too_many_arguments)] // the arguments of a call in Python, by name
 pub fn vectors(
@@ -179,10 +180,12 @@ pub fn vectors(
     header: &str,
     only: Vec<String>,
     stalls: Option<&str>,
-    seed: u64,
-    count: u64,
+    seed: Option<&Bound<'_, PyAny>>,
+    count: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<Vectors> {
     let stalls = stalls.map(stall_kind).transpose()?;
+    let seed = whole("seed", seed, 1, 0..=u64::MAX)?;
+    let count = whole("count", count, 100, 1..=MAX_COUNT)?;
     let (machine, frame) = match triangles {
         None => (on_screen(machine, None)?, None),
         Some(_) if suite.is_some() => {

@@ -96,6 +96,8 @@ WRONG = [
     (lambda: edgewalk.sweep("sphere", VARY, bound=0.1), "^bound 0.1: permitted: above 0.5 LSB"),
     (lambda: edgewalk.sweep("sphere", VARY, objectives=["cycle"]), "cycle.*cycles"),
     (lambda: edgewalk.sweep("sphere", VARY, sample=0), "^sample 0"),
+    (lambda: edgewalk.sweep("sphere", VARY, sample=-1), "^sample: -1; permitted: an integer in 0 to 4294967295"),
+    (lambda: edgewalk.sweep("sphere", VARY, sample=2, seed=-1), "^seed: -1; permitted: an integer in 0 to "),
     (lambda: edgewalk.sweep("sphere", VARY, store="/none/rows.jsonl"), "/none/rows.jsonl"),
 ]
 

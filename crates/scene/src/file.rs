@@ -1,6 +1,7 @@
 //! Opens the files that an input is or names, so that reading them ends: no device, and of what a file names no pipe either.
 
 use crate::error::{Fault, InputError};
+use crate::inputs;
 use std::fs::{File, FileType};
 use std::io::{self, Read as _};
 use std::os::unix::fs::FileTypeExt as _;
@@ -59,5 +60,7 @@ fn checked(path: &Path, may_be: impl FnOnce(FileType) -> bool, permitted: &str) 
         };
         return Err(Fault::new(&file, None, "kind of file", name, permitted).into());
     }
-    File::open(path).map_err(unreadable)
+    let opened = File::open(path).map_err(unreadable)?;
+    inputs::note(path);
+    Ok(opened)
 }

@@ -18,6 +18,7 @@
 
 mod error;
 mod text;
+pub mod inputs;
 mod file;
 mod kind;
 

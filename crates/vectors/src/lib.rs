@@ -38,5 +38,5 @@ pub use reach::{Reached, not_covered, reached};
 pub use read::{ReadError, Vectors, read};
 pub use seen::{Sight, sights};
 pub use simulate::{Outcome, SimulateError, Simulator, Stop, lint, simulate, synth_ice40};
-pub use suites::{Case, SUITES, Suite, Words, words};
+pub use suites::{Case, MAX_COUNT, SUITES, Suite, Words, words};
 pub use write::{Files, Tables, directory, directory_for};

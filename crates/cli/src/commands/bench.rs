@@ -6,16 +6,18 @@ use crate::machine_args::MachineArgs;
 use crate::number::whole;
 use crate::verdict::Verdict;
 use crate::{Talk, progress};
-use anyhow::Result;
+use anyhow::{Result, anyhow};
 use edgewalk_bench::{Engine, Job, Row, Table};
 use edgewalk_files::Scratch;
 use edgewalk_model::Waits;
+use edgewalk_tool::Stop;
 
 /// Time every engine on a triangle file, scene or mesh.
 ///
 /// One frame clears and draws all triangles; reading the file does not count. Slow engines draw the first triangles
 /// only, as the output says. Every engine must take the machine's cycles and make its writes, or the exit code is 1.
-/// Rates are of processor time, the median frame. Verilator takes part where it is installed. It gets the emitted
+/// Rates are of processor time, the median frame. Verilator takes part where it is installed; named by
+/// --engine it must be, or the exit code is 3. Where no engine is timed, the exit code is 2. Verilator gets the emitted
 /// Verilog of the same machine and -O3 --x-assign fast.
 #[derive(clap::Args)]
 #[command(after_help = "Examples:
@@ -53,9 +55,16 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
     let mut rows = Vec::new();
     for engine in asked {
         let job = whole.part(engine.budget())?;
-        let row = match engine.time(&job, folder.path())? {
-            Ok(times) => Row::new(engine.name(), &job, &times),
-            Err(absent) => Row::absent(engine.name(), absent),
+        let row = match engine.time(&job, folder.path()) {
+            Ok(Ok(times)) => Row::new(engine.name(), &job, &times),
+            Ok(Err(absent)) => Row::absent(engine.name(), absent),
+            Err(error) => match error.downcast_ref() {
+                // Whoever names an engine wants its figures.
+                Some(Stop::Missing { tool, .. }) if args.engine.is_empty() => {
+                    Row::absent(engine.name(), format!("{tool} is not installed"))
+                }
+                _ => return Err(error),
+            },
         };
         rows.push(row);
         bar.inc(1);
@@ -63,5 +72,11 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
     bar.finish_and_clear();
     let table = Table::new(&whole, rows);
     talk.say(|| line("bench", table.json()), || table.text())?;
+    if let Some(why) = table.nothing_timed() {
+        return Err(anyhow!(
+            "no engine was timed: {why}; permitted: an engine that takes part, as --engine tick does with any machine and any \
+             --stalls; name it, or leave --engine out"
+        ));
+    }
     Ok(if table.agrees() { Verdict::Pass } else { Verdict::Mismatch })
 }

@@ -7,14 +7,14 @@
 mod gates;
 
 use super::estimate::{FAMILY, family};
-use crate::Talk;
 use crate::cost::cache_folder;
 use crate::document::document;
 use crate::machine_args::MachineArgs;
 use crate::number::whole;
 use crate::progress;
 use crate::verdict::Verdict;
-use anyhow::{Context, Result, anyhow};
+use crate::{Talk, kept};
+use anyhow::{Context, Result, anyhow, ensure};
 use edgewalk_files::Scratch;
 use edgewalk_machine::Plan;
 use edgewalk_synth::estimate::{Delays, Fit, Kept, Measured, Sample, Structure};
@@ -25,7 +25,8 @@ use std::time::Duration;
 
 /// Synthesise machines for a device of the family, and fit the factors of `edgewalk estimate` to what the tools say.
 ///
-/// Every second machine is held out: nothing is fitted to it, and the errors are told of those. Of the others the
+/// Every second machine is held out: nothing is fitted to it, and the errors are told of those. A table without machines of both
+/// kinds is refused. Of the others the
 /// engine (all units but setup) is synthesised by itself too: it fits the device more often, so it has a clock. A
 /// machine whose netlist is as it was when its row was written is not synthesised again, so the command goes on where
 /// it was stopped. --machine and --set are refused. Tools: apt-get install yosys nextpnr-ice40; for ecp5 yosys and
@@ -74,6 +75,7 @@ pub fn run(args: &Args, talk: Talk) -> Result<Verdict> {
     let of_family = |ending: &str| PathBuf::from(format!("crates/synth/data/{}.{ending}", args.family));
     let data = args.data.clone().unwrap_or_else(|| of_family("csv"));
     let fitted = args.fit.clone().unwrap_or_else(|| of_family("json"));
+    apart(args, &data, &fitted)?;
     let list =
         read(&args.machines).map_err(|error| from_elsewhere(error, "--machines, the list of machines"))?;
     let lines: Vec<&str> = list.lines().map(str::trim).filter(|line| !line.is_empty()).collect();
@@ -99,10 +101,11 @@ pub fn run(args: &Args, talk: Talk) -> Result<Verdict> {
     let Some(family) = fpga else {
         let limit = Duration::from_secs(args.limit);
         let bench = cache.map(|cache| gates::Bench { cache, limit });
-        return gates::run(&lines[..args.count], bench.as_ref(), &data, &fitted, talk);
+        return gates::run(&lines[..args.count], bench.as_ref(), [&data, &fitted], talk);
     };
     let table = if data.exists() { read(&data)? } else { String::new() };
     let mut rows = Measured::rows(&table).map_err(|why| anyhow!("{}: {why}", data.display()))?;
+    of_one_family(&rows, family, &data)?;
     let bar = progress::bar(args.count as u64, "machines", talk.quiet);
     if let Some(cache) = cache {
         let bench = Bench { args, cache, target: Target::measured(family) };
@@ -133,6 +136,9 @@ pub fn run(args: &Args, talk: Talk) -> Result<Verdict> {
             data.display()
         ));
     }
+    let held_out = |sample: &Sample| sample.measured.held_out;
+    let machines = samples.iter().filter(|sample| sample.measured.part == Part::MACHINE.name());
+    both(&data, machines.filter(|sample| held_out(sample)).count(), samples.iter().all(held_out))?;
     let again = |sample: &Sample, delays: &Delays| {
         structure(family, &sample.measured, delays).unwrap_or_else(|_| sample.structure.clone())
     };
@@ -159,16 +165,60 @@ impl Report {
         let errors = &self.fit.errors;
         format!(
             "{} rows, {} of netlists that have changed since\nheld out: {} machines, {} of them placed; nine in ten within: \
-             LUT4 {:.1} %, cells {:.1} %, MHz {:.1} %\n",
+             LUT4 {:.1} %, cells {:.1} %, MHz {}\n",
             self.rows,
             self.stale,
             errors.machines,
             errors.placed,
             errors.lut4 * 100.0,
             errors.cells * 100.0,
-            errors.mhz * 100.0
+            // Without a clock there is no error of one.
+            if errors.placed > 0 { format!("{:.1} %", errors.mhz * 100.0) } else { "unknown".to_owned() }
         )
     }
+}
+
+/// Refuses files of which one would replace another.
+fn apart(args: &Args, data: &Path, fitted: &Path) -> Result<()> {
+    kept::none_of("--data", data, [&args.machines])?;
+    kept::none_of("--fit", fitted, [data, &args.machines])?;
+    // A table that is not there yet has no place on the disk.
+    ensure!(
+        data != fitted,
+        "--fit {0}: --data {0} is the same file; permitted: two files; give another name",
+        data.display()
+    );
+    Ok(())
+}
+
+/// Refuses rows that the tools of another family made.
+fn of_one_family(rows: &[Measured], family: Fpga, data: &Path) -> Result<()> {
+    let others = || Fpga::ALL.into_iter().filter(|other| *other != family);
+    let of_another = |row: &Measured| {
+        others().find(|other| row.nextpnr.contains(&format!("nextpnr-{}", other.name()))).map(Fpga::name)
+    };
+    let Some((row, other)) = rows.iter().find_map(|row| Some((row, of_another(row)?))) else { return Ok(()) };
+    Err(anyhow!(
+        "{}: the row of {}, {}, is of the family {other}: nextpnr-{other} made it; permitted: rows of {}; give --family {other}, \
+         or another --data",
+        data.display(),
+        row.machine,
+        row.part,
+        family.name()
+    ))
+}
+
+/// Refuses a table to which nothing is fitted, or by which no fit is checked.
+fn both(data: &Path, held_out: usize, all_held_out: bool) -> Result<()> {
+    let (lacks, held) = match (held_out, all_held_out) {
+        (_, true) => ("all rows are held out, so nothing can be fitted", "no"),
+        (0, false) => ("no machine is held out, so no fit would be checked", "yes"),
+        _ => return Ok(()),
+    };
+    Err(anyhow!(
+        "{}: {lacks}; permitted: rows of machines with held_out = {held} too; add --count N, which holds every second machine out",
+        data.display()
+    ))
 }
 
 fn read(path: &Path) -> Result<String> {

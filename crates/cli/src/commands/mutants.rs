@@ -14,7 +14,7 @@ use crate::number::whole;
 use crate::suites::check_unit;
 use crate::verdict::Verdict;
 use crate::{Talk, jobs, own, progress};
-use anyhow::{Result, anyhow};
+use anyhow::{Context as _, Result, anyhow};
 use bench::{Bench, Ended};
 use edgewalk_machine::Plan;
 use edgewalk_netlist::Netlist;
@@ -25,6 +25,7 @@ use rand::seq::index;
 use rand_pcg::Pcg64Mcg;
 use serde::Serialize;
 use std::fmt::Write as _;
+use std::fs;
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Duration;
@@ -42,8 +43,8 @@ use verdicts::{Row, Store};
   edgewalk mutants --unit pixel --in out/v/hazards_pixel --bench 'make icarus HDL=\"{hdl}\"' --sample 40
   edgewalk mutants --dut dut.toml --in my_bench --bench './run.sh {hdl}' --sample 100 --seed 2 --least 95
 
-A run that was cut short goes on where it ended: --out keeps a verdict for each fault, as long as machine, command and
-the folder of --in are the same.")]
+A run that was cut short goes on where it ended: --out keeps a verdict for each fault. A verdict holds for the same version
+of edgewalk, machine, design, command and folder of --in. A fault found by time is tried again under a longer --limit.")]
 pub struct Args {
     /// Command of your bench, for the shell
     #[arg(long, value_name = "CMD")]
@@ -54,7 +55,8 @@ pub struct Args {
     /// Give the design the names and ports of your own, as this file describes them (docs/own_rtl.md)
     #[arg(long, value_name = "FILE.toml", conflicts_with = "unit")]
     dut: Option<PathBuf>,
-    /// Folder that your bench needs; the command runs in a copy of it
+    /// Folder that your bench needs; the command runs in a copy of it. A link to a folder outside names that folder in the
+    /// copy too; what is in there counts for no verdict
     #[arg(long = "in", value_name = "DIR")]
     folder: Option<PathBuf>,
     /// Faults to try, drawn by the seed; all of them if left out
@@ -131,10 +133,14 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
         args.sample.map_or(faults.len(), |n| usize::try_from(n).unwrap_or(usize::MAX).min(faults.len()));
     let mut sample = index::sample(&mut Pcg64Mcg::seed_from_u64(args.seed), faults.len(), wanted).into_vec();
     sample.sort_unstable();
-    let bench = Bench::new(&args.bench, args.folder.as_deref(), Duration::from_secs(args.limit))?;
-    let store = Store::open(&args.out, &bench.key(&machine.hash(), unit.name(), around.as_deref())?)?;
     let around = around.as_deref();
-    match bench.run(&sources(&netlist, around))? {
+    let design = sources(&netlist, around);
+    let file = verdicts::file(&args.out);
+    let bench = Bench::new(&args.bench, args.folder.as_deref(), &file, Duration::from_secs(args.limit))?;
+    // Within the folder of --in it is a part of the first key too.
+    fs::create_dir_all(&args.out).with_context(|| format!("--out {}", file.display()))?;
+    let store = Store::open(&file, &bench.key(&machine.hash(), &design)?, args.limit)?;
+    match bench.run(&design)? {
         Ended::Passed => {}
         Ended::Failed(lines) => {
             let lines = lines.join("\n    ");
@@ -153,7 +159,7 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
     let bar = progress::bar(todo.len() as u64, "faults", talk.quiet);
     jobs::all(&todo, &bar, |place| {
         let ended = bench.run(&sources(&faults[*place].apply(&netlist), around))?;
-        store.add(Row { fault: *place, verdict: ended.word().to_owned() })
+        store.add(Row { fault: *place, verdict: ended.word().to_owned(), limit: args.limit })
     })?;
     bar.finish_and_clear();
     let report = report(args, &machine, unit, &netlist, &faults, &sample, &store, talk)?;

@@ -10,7 +10,7 @@ use crate::{Talk, own};
 use anyhow::{Result, anyhow};
 use edgewalk_files::Staging;
 use edgewalk_vectors::dut::Wiring;
-use edgewalk_vectors::{SUITES, StallKind, Suite, Tables, Unit};
+use edgewalk_vectors::{MAX_COUNT, SUITES, StallKind, Suite, Tables, Unit};
 use serde_json::json;
 use std::path::PathBuf;
 
@@ -59,8 +59,8 @@ pub struct Args {
     /// Seed of the random suite and of the stalls
     #[arg(long, default_value_t = 1, value_parser = whole::<u64>(..))]
     seed: u64,
-    /// Triangles of the random suite
-    #[arg(long, default_value_t = 100, value_parser = whole::<u64>(1..))]
+    /// Triangles of the random suite, at most 10000; another seed draws others
+    #[arg(long, default_value_t = 100, value_parser = whole::<u64>(1..=MAX_COUNT))]
     count: u64,
     /// Omit the tables for people, *.csv, which are more than half of the bytes
     #[arg(long)]

@@ -8,6 +8,7 @@ use super::texture;
 use super::vertices::{contour, ends, triangle};
 use crate::error::InputError;
 use crate::frame::{Frame, Line, MAX_LIGHTS, MAX_SIDE, Polygon};
+use crate::inputs;
 use crate::kind::InputKind;
 use crate::rules::State;
 use crate::text::{Lines, Place, words};
@@ -58,8 +59,11 @@ const PRIMITIVE: usize = 18;
 /// The file cannot be opened.
 pub fn open(path: &Path) -> Result<File, InputError> {
     let standard_input = path == Path::new(InputKind::STANDARD_INPUT);
-    let opened = File::open(if standard_input { Path::new("/dev/stdin") } else { path });
-    opened.map_err(|source| InputError::Read { file: path.display().to_string(), source })
+    let place = if standard_input { Path::new("/dev/stdin") } else { path };
+    let opened = File::open(place);
+    let opened = opened.map_err(|source| InputError::Read { file: path.display().to_string(), source })?;
+    inputs::note(place);
+    Ok(opened)
 }
 
 /// Reads the file at `path`, which may be a pipe; `-` is the standard input.

@@ -150,6 +150,9 @@ impl Entry {
     }
 }
 
+/// Triangles of the suite `random`, at most: in PIXEL these take 6 GB on a screen of 640 x 480. Other seeds draw other ones.
+pub const MAX_COUNT: u64 = 10_000;
+
 /// The suites that come with the program.
 pub const SUITES: [Entry; 24] = [
     shapes(

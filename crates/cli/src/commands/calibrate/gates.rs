@@ -29,8 +29,9 @@ struct Report {
     fit: GatesFit,
 }
 
-/// Maps the machines of these lines on the bench, if there is one, and fits to all rows of the table.
-pub fn run(lines: &[&str], bench: Option<&Bench>, data: &Path, fitted: &Path, talk: Talk) -> Result<Verdict> {
+/// Maps the machines of these lines on the bench, if there is one, and fits to all rows of the table. The files are the table and
+/// the fit.
+pub fn run(lines: &[&str], bench: Option<&Bench>, [data, fitted]: [&Path; 2], talk: Talk) -> Result<Verdict> {
     let table = if data.exists() { super::read(data)? } else { String::new() };
     let mut rows = MeasuredUnit::rows(&table).map_err(|why| anyhow!("{}: {why}", data.display()))?;
     let bar = progress::bar(lines.len() as u64, "machines", talk.quiet);
@@ -49,6 +50,8 @@ pub fn run(lines: &[&str], bench: Option<&Bench>, data: &Path, fitted: &Path, ta
     if samples.is_empty() {
         return Err(anyhow!("{}: no row is of a netlist as it is today; add --count N", data.display()));
     }
+    let held_out = samples.iter().filter(|(row, _)| row.held_out).count();
+    super::both(data, held_out, held_out == samples.len())?;
     let fit = GatesFit::to(&samples);
     std::fs::write(fitted, document("fit", &fit)?).with_context(|| fitted.display().to_string())?;
     let report = Report { rows: samples.len(), stale: all - samples.len(), fit };

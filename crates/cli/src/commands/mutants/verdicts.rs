@@ -1,15 +1,21 @@
 //! The verdicts of a run, a line each, read again where a run was cut short.
 
+use super::bench::Ended;
 use anyhow::{Context, Result};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::fs::{self, File, OpenOptions};
 use std::io::Write as _;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
 /// Name of the file.
 const FILE: &str = "verdicts.jsonl";
+
+/// The file in this folder.
+pub fn file(folder: &Path) -> PathBuf {
+    folder.join(FILE)
+}
 
 /// The verdict on a fault.
 #[derive(Serialize, Deserialize)]
@@ -18,6 +24,8 @@ pub struct Row {
     pub fault: usize,
     /// `found`, `found by time` or `survived`.
     pub verdict: String,
+    /// Seconds that the command was given.
+    pub limit: u64,
 }
 
 /// A line of the file.
@@ -36,19 +44,19 @@ pub struct Store {
 }
 
 impl Store {
-    /// The verdicts under this key; of a line that was cut short nothing is used.
-    pub fn open(folder: &Path, key: &str) -> Result<Store> {
-        let path = folder.join(FILE);
+    /// The verdicts under this key; of a line that was cut short nothing is used. A fault that was found by time counts
+    /// only where its command had this limit or a longer one.
+    pub fn open(path: &Path, key: &str, limit: u64) -> Result<Store> {
         let named = || format!("--out {}", path.display());
-        fs::create_dir_all(folder).with_context(named)?;
-        let text = match fs::read_to_string(&path) {
+        let text = match fs::read_to_string(path) {
             Err(error) if error.kind() == std::io::ErrorKind::NotFound => String::new(),
             read => read.with_context(named)?,
         };
         let lines = text.lines().filter_map(|line| serde_json::from_str::<Line>(line).ok());
-        let known =
-            lines.filter(|line| line.key == key).map(|line| (line.row.fault, line.row.verdict)).collect();
-        let mut file = OpenOptions::new().append(true).create(true).open(&path).with_context(named)?;
+        let holds = |row: &Row| row.verdict != Ended::Late.word() || row.limit >= limit;
+        let rows = lines.filter(|line| line.key == key).map(|line| line.row).filter(holds);
+        let known = rows.map(|row| (row.fault, row.verdict)).collect();
+        let mut file = OpenOptions::new().append(true).create(true).open(path).with_context(named)?;
         if !text.is_empty() && !text.ends_with('\n') {
             file.write_all(b"\n").with_context(named)?;
         }
