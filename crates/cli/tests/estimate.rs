@@ -104,7 +104,7 @@ fn lines(family: &str, beside: &[Beside]) -> Vec<String> {
 fn the_page_tells_the_errors_of_measured_machines() {
     let page = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/estimate.md");
     let page = std::fs::read_to_string(page).unwrap();
-    let page = page.replace("by\nat", "by at");
+    let page = page.replace('\n', " ");
     // Family, its name in the page, the largest error of LUT4, the words before the largest error of carry cells.
     for (family, name, most_lut4, words) in [
         ("ice40", "iCE40", 0.05, "an iCE40 are not equal, they are off by at most "),
@@ -335,7 +335,8 @@ fn memories_and_carries_of_parts_are_those_of_yosys() {
     let term = &estimates(&[&[phong][..], &machines, &["--unit", "term"]].concat())[0];
     assert_eq!((term["est_ram"].as_u64(), term["est_ff"].as_u64()), (Some(4), Some(825)), "{term}");
     let spans: Vec<String> = [9, 17].map(|places| format!("small,fifo.span={places}")).to_vec();
-    let words: Vec<&str> = spans.iter().map(String::as_str).chain(machines).chain(["--unit", "span"]).collect();
+    let words: Vec<&str> =
+        spans.iter().map(String::as_str).chain(machines).chain(["--unit", "span"]).collect();
     let carries: Vec<_> = estimates(&words).iter().map(|of| of["est_carry"].as_u64()).collect();
     assert_eq!(carries, [Some(26), Some(50)]);
 }

@@ -42,7 +42,7 @@ pub struct Live {
     /// Where the rig's tokens are put.
     given: mpsc::Sender<Token>,
     rig: Rig<Given>,
-    device: Box<dyn ModelDevice>,
+    device: Box<dyn ModelDevice + Send>,
     ports: PortValues,
     /// Words of a token that is taken word by word, as far as they have come.
     words: Token,

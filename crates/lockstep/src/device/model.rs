@@ -46,7 +46,7 @@ impl From<Box<Port>> for NoPlace {
 }
 
 /// A unit of the model. Events count from here on.
-pub trait ModelDevice: Device + Send {
+pub trait ModelDevice: Device {
     /// What has happened so far.
     fn events(&self) -> &Events;
 
@@ -61,11 +61,11 @@ pub trait ModelDevice: Device + Send {
 ///
 /// # Errors
 /// A declared port or field that the model lacks.
-pub fn model(plan: &Plan, interface: &Interface) -> Result<Box<dyn ModelDevice>, NoPlace> {
+pub fn model(plan: &Plan, interface: &Interface) -> Result<Box<dyn ModelDevice + Send>, NoPlace> {
     for_channels!(plan, C => of::<C>(plan, interface))
 }
 
-fn of<const C: usize>(plan: &Plan, interface: &Interface) -> Result<Box<dyn ModelDevice>, NoPlace> {
+fn of<const C: usize>(plan: &Plan, interface: &Interface) -> Result<Box<dyn ModelDevice + Send>, NoPlace> {
     let scope = Scope::alone(plan, interface);
     match interface.unit.name() {
         "machine" => Ok(Box::new(machine::MachineDevice::<C>::new(plan, interface)?)),
@@ -78,7 +78,7 @@ fn of<const C: usize>(plan: &Plan, interface: &Interface) -> Result<Box<dyn Mode
 }
 
 impl<const C: usize> Visit<C> for Scope<'_> {
-    type Out = Result<Box<dyn ModelDevice>, NoPlace>;
+    type Out = Result<Box<dyn ModelDevice + Send>, NoPlace>;
 
     fn visit<U: Ported<C, Takes: Sourced> + 'static>(self, unit: U) -> Self::Out {
         Ok(Box::new(UnitDevice::new(unit, Taker::find(self)?, self)?))

@@ -156,7 +156,10 @@ fn every_key_does_what_the_help_says() {
     assert_eq!(browser.eval("document.activeElement.id"), "input");
     from(&mut browser, 0);
     browser.key(" ", false);
-    std::thread::sleep(std::time::Duration::from_millis(700));
+    let begun = std::time::Instant::now();
+    while at(&mut browser) == 0 && begun.elapsed().as_secs() < 20 {
+        std::thread::sleep(std::time::Duration::from_millis(50));
+    }
     browser.key(" ", false);
     let played = at(&mut browser);
     std::thread::sleep(std::time::Duration::from_millis(300));
