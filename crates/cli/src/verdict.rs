@@ -21,7 +21,7 @@ pub fn of_error(error: &anyhow::Error) -> u8 {
     });
     match of_simulator.or_else(|| error.downcast_ref::<Stop>()) {
         Some(Stop::TimeLimit { .. }) => 4,
+        Some(Stop::File { .. }) | None => 2,
         Some(_) => 3,
-        None => 2,
     }
 }

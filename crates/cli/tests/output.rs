@@ -237,6 +237,29 @@ fn a_signal_leaves_nothing_behind() {
     }
 }
 
+/// A file for the tools that cannot be written is no broken tool: the error names it. Here a file may have few bytes.
+#[test]
+fn a_full_cache_is_no_broken_tool() {
+    let folder = folder();
+    let mut shell = Command::new("sh");
+    let limited = "trap '' XFSZ; ulimit -f 8; exec \"$0\" \"$@\"";
+    shell.args([
+        "-c",
+        limited,
+        env!("CARGO_BIN_EXE_edgewalk"),
+        "synth",
+        "--unit",
+        "pixel",
+        "--cache",
+        "full",
+    ]);
+    let output = shell.args(["--out", "o"]).current_dir(folder.path()).output().unwrap();
+    let error = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(2), "{error}");
+    assert!(error.contains("full/") && error.contains("File too large"), "{error}");
+    assert!(!error.contains("failed:"), "{error}");
+}
+
 /// A hangup does not end what was started to outlive it, as `nohup` does.
 #[test]
 fn an_ignored_hangup_ends_nothing() {

@@ -124,6 +124,14 @@ fn every_decision_and_colour_under_panes_is_explained() {
         assert_eq!((number("unexplained"), blended["beyond"].as_u64()), (0, Some(0)));
         (pixels, dark, differ) =
             (pixels + number("pixels"), dark + number("shadow"), differ + number("differ"));
+        if i == 1 {
+            // The text tells of them where there are any.
+            let mut command = edgewalk(folder.path(), &["render", "a.tri", "--engine", engine]);
+            sizes.iter().chain(&screen).for_each(|setting| _ = command.args(["--set", setting]));
+            let text = String::from_utf8(command.output().unwrap().stdout).unwrap();
+            let told = format!("    {} pixels between texels of several shares: ", number("loose"));
+            assert!(number("loose") > 0 && text.contains(&told), "{told}\n{text}");
+        }
         (loose, open) = (loose + number("loose"), open + number("open"));
         reached = reached.max(blended["of_bound"].as_f64().unwrap());
     }
@@ -285,6 +293,12 @@ fn scenes_with_glass_have_their_shadows_on_the_machine() {
                 (1 + lights, Some(true)),
                 "{name}"
             );
+            // Of the pixels that are drawn those are left out where a light decides otherwise than golden, once each at most.
+            let drawn = parts[0]["covered"].as_u64().unwrap();
+            let otherwise =
+                parts[1..].iter().map(|part| part["lit"]["differ"].as_u64().unwrap()).sum::<u64>();
+            let alike = report["parts"]["alike"].as_u64().unwrap();
+            assert!(alike <= drawn && alike + otherwise >= drawn, "{alike} of {drawn}, {otherwise}");
             for (place, part) in parts.iter().enumerate() {
                 let (lit, blended) = (&part["lit"], &part["blended"]);
                 assert_eq!(blended["beyond"].as_u64(), Some(0), "{name} {engine}: {part}");

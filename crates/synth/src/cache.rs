@@ -45,7 +45,7 @@ impl Cache {
             return Ok(kept);
         }
         let folder = self.scratch.join(&name);
-        let said = |error: &std::io::Error| Stop::broken(&kept.display().to_string(), error);
+        let said = |error: &std::io::Error| Stop::file(&kept, error);
         std::fs::create_dir_all(&folder).map_err(|error| said(&error))?;
         work(&folder)?;
         self.done.fetch_add(1, Ordering::Relaxed);

@@ -126,7 +126,8 @@ impl Job<'_> {
         let Job { flow, design, target, .. } = self;
         let folder = flow.cache.step(&[&design.hash, &self.yosys, script], keep, |folder| {
             for (name, verilog) in &design.files {
-                std::fs::write(folder.join(name), verilog).map_err(|error| Stop::broken(name, &error))?;
+                std::fs::write(folder.join(name), verilog)
+                    .map_err(|error| Stop::file(&folder.join(name), &error))?;
             }
             let script = format!("read_verilog {}; {script}", design.sources().collect::<Vec<_>>().join(" "));
             run(Command::new(target.yosys).args(["-q", "-p", &script]).current_dir(folder), flow.limit)
@@ -177,7 +178,8 @@ impl Job<'_> {
             let unreadable = |error: serde_json::Error| Stop::broken(target.nextpnr, &error.into());
             let packed = packed(target.packed, &written, &report).map_err(unreadable)?;
             let packed = serde_json::to_string(&packed).map_err(unreadable)?;
-            std::fs::write(folder.join(PACKED), packed).map_err(|error| Stop::broken(PACKED, &error))
+            std::fs::write(folder.join(PACKED), packed)
+                .map_err(|error| Stop::file(&folder.join(PACKED), &error))
         });
         (flow.done)();
         serde_json::from_str(&text(&folder?.join(PACKED))?)
@@ -213,7 +215,8 @@ impl Job<'_> {
         flow.cache.step(&key, keep, |folder| {
             // Beside the output: not every nextpnr sees the whole file system.
             const INPUT: &str = "input.json";
-            std::fs::copy(netlist, folder.join(INPUT)).map_err(|error| Stop::broken(INPUT, &error))?;
+            std::fs::copy(netlist, folder.join(INPUT))
+                .map_err(|error| Stop::file(&folder.join(INPUT), &error))?;
             let mut command = Command::new(target.nextpnr);
             command.args(["-q", "--json", INPUT]).args(target.options).args(options);
             run(command.current_dir(folder), flow.limit)?;
@@ -223,5 +226,5 @@ impl Job<'_> {
 }
 
 fn text(path: &Path) -> Result<String, Stop> {
-    std::fs::read_to_string(path).map_err(|error| Stop::broken(&path.display().to_string(), &error))
+    std::fs::read_to_string(path).map_err(|error| Stop::file(path, &error))
 }

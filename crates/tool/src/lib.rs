@@ -38,6 +38,14 @@ pub enum Stop {
         /// What it said first.
         lines: Vec<String>,
     },
+    /// A file that goes to a tool or comes from it cannot be written or read.
+    #[error("{file}: {why}")]
+    File {
+        /// The file.
+        file: String,
+        /// What the system says.
+        why: String,
+    },
     /// The tool took too long and was ended.
     #[error("{tool} was ended after {} s", limit.as_secs())]
     TimeLimit {
@@ -49,10 +57,16 @@ pub enum Stop {
 }
 
 impl Stop {
-    /// What the system says of a tool, or of the folder it works in.
+    /// What the system says of a tool.
     #[must_use]
     pub fn broken(tool: &str, error: &std::io::Error) -> Stop {
         Stop::Broken { tool: tool.to_owned(), lines: vec![error.to_string()] }
+    }
+
+    /// What the system says of a file.
+    #[must_use]
+    pub fn file(file: &Path, error: &std::io::Error) -> Stop {
+        Stop::File { file: file.display().to_string(), why: error.to_string() }
     }
 }
 
@@ -123,12 +137,13 @@ fn remove(temporary: &Path) {
 pub fn run(command: &mut Command, limit: Duration) -> Result<String, Stop> {
     let tool = command.get_program().to_string_lossy().into_owned();
     let broken = |error: std::io::Error| Stop::broken(&tool, &error);
+    let unwritten = |error: std::io::Error| Stop::file(&std::env::temp_dir(), &error);
     // A file takes any amount of text without anyone reading along.
-    let mut printed = tempfile::tempfile().map_err(broken)?;
+    let mut printed = tempfile::tempfile().map_err(unwritten)?;
     let other_end = || printed.try_clone().map(Stdio::from);
     command.stdin(Stdio::null()).stdout(other_end().map_err(broken)?).stderr(other_end().map_err(broken)?);
     let mut running = at_work();
-    let temporary = tempfile::Builder::new().prefix(".edgewalk-tool-").tempdir().map_err(broken)?.keep();
+    let temporary = tempfile::Builder::new().prefix(".edgewalk-tool-").tempdir().map_err(unwritten)?.keep();
     for name in ["TMPDIR", "TMP", "TEMP"] {
         command.env(name, &temporary);
     }

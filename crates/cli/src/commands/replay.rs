@@ -5,6 +5,7 @@ mod truth;
 use crate::Talk;
 use crate::document::document;
 use crate::input::{Source, to_port};
+use crate::kept;
 use crate::machine_args::MachineArgs;
 use crate::number::whole;
 use crate::shell::quoted;
@@ -78,7 +79,7 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
     if !["html", "json"].contains(&kind) {
         return Err(anyhow!("--out {}: the file must end in .html or .json", args.out.display()));
     }
-    let name = args.out.file_name().and_then(|n| n.to_str()).context("--out: no file name")?;
+    let name = kept::name_of(&args.out)?;
     let shown = if args.lesson { taught(machine)? } else { drawn(args, machine)? };
     let Shown { machine, scene, triangles, drawn, of, recording, truth, command, lesson } = &shown;
     let replay = Replay {

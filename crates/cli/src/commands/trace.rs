@@ -5,6 +5,7 @@ mod views;
 use crate::Talk;
 use crate::document::document;
 use crate::input::{PortFrame, Source, to_port};
+use crate::kept;
 use crate::machine_args::MachineArgs;
 use crate::number::whole;
 use crate::suites::of_input;
@@ -99,7 +100,7 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
         "--views --out {}: a SAIF has no waveform; permitted with .vcd and .fst",
         args.out.display()
     );
-    let name = args.out.file_name().and_then(|n| n.to_str()).context("--out: no file name")?;
+    let name = kept::name_of(&args.out)?;
     let folder = args.out.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(".".as_ref());
     let window = window(args, &machine, &port)?;
     let out = Staging::new(folder)?;

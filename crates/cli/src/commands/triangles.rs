@@ -58,7 +58,7 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
     if to_output {
         talk::print(&String::from_utf8(text).context("a triangle file is ASCII")?)?;
     } else {
-        let name = args.out.file_name().and_then(|name| name.to_str()).context("--out: no file name")?;
+        let name = kept::name_of(&args.out)?;
         let folder = args.out.parent().filter(|path| !path.as_os_str().is_empty()).unwrap_or(".".as_ref());
         let out = Staging::new(folder)?;
         out.write(name, text)?;

@@ -88,7 +88,7 @@ pub fn gates(design: &Design, library: &Library, cache: &Cache, limit: Duration)
     let key = [&*design.hash, &yosys, &library.hash, &script, &constraints, "with ports and wires"];
     let folder = cache.step(&key, &[VERILOG, MODULES], |folder| {
         let write = |name: &str, text: &str| {
-            std::fs::write(folder.join(name), text).map_err(|error| Stop::broken(name, &error))
+            std::fs::write(folder.join(name), text).map_err(|error| Stop::file(&folder.join(name), &error))
         };
         for (name, verilog) in &design.files {
             write(name, verilog)?;
@@ -105,7 +105,7 @@ pub fn gates(design: &Design, library: &Library, cache: &Cache, limit: Duration)
     let modules: BTreeMap<String, Module> = serde_json::from_str(&text(&folder.join(MODULES))?)
         .map_err(|error| Stop::broken(MODULES, &error.into()))?;
     // Absolute: OpenSTA works in another folder.
-    let verilog = std::path::absolute(folder.join(VERILOG)).map_err(|error| Stop::broken(VERILOG, &error))?;
+    let verilog = std::path::absolute(folder.join(VERILOG)).map_err(|error| Stop::file(&folder, &error))?;
     let timing = cache.step(&[&key[..], &[&*sta]].concat(), &[TIMING], |folder| {
         let used = modules.values().flat_map(|module| &module.cells).map(|cell| cell.of.as_str());
         let outputs: BTreeSet<&str> = used.flat_map(|cell| library.outputs(cell)).collect();
@@ -118,7 +118,7 @@ pub fn gates(design: &Design, library: &Library, cache: &Cache, limit: Duration)
             _ = writeln!(script, "foreach pin [get_pins -hierarchical */{output}] {{ report_slews $pin }}");
         }
         std::fs::write(folder.join(TIMING), sta_run(folder, library, &script, limit)?)
-            .map_err(|error| Stop::broken(TIMING, &error))
+            .map_err(|error| Stop::file(&folder.join(TIMING), &error))
     })?;
     let printed = text(&timing.join(TIMING))?;
     let (checks, times) = printed.split_once(SLEWS).unwrap_or((&printed, ""));
@@ -148,7 +148,7 @@ fn opened(verilog: &Path, top: &str, period: f64) -> String {
 fn sta_run(folder: &Path, library: &Library, script: &str, limit: Duration) -> Result<String, Stop> {
     const SCRIPT: &str = "run.tcl";
     for (name, text) in [(SCRIPT, script), (CELLS, &library.text)] {
-        std::fs::write(folder.join(name), text).map_err(|error| Stop::broken(name, &error))?;
+        std::fs::write(folder.join(name), text).map_err(|error| Stop::file(&folder.join(name), &error))?;
     }
     let printed = run(
         Command::new("sta").args(["-no_splash", "-no_init", "-exit", SCRIPT]).current_dir(folder),
@@ -245,7 +245,7 @@ fn named(modules: &BTreeMap<String, Module>, top: &str, library: &Library, path:
 }
 
 fn text(path: &Path) -> Result<String, Stop> {
-    std::fs::read_to_string(path).map_err(|error| Stop::broken(&path.display().to_string(), &error))
+    std::fs::read_to_string(path).map_err(|error| Stop::file(path, &error))
 }
 
 fn first_line(printed: &str) -> String {

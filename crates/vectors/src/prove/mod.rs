@@ -134,7 +134,8 @@ const STUCK: Duration = Duration::from_secs(600);
 
 /// Whether the module `miter` of these designs, in this text, ever shows `bad`.
 fn reaches(designs: &[(&str, &Arc<Netlist>)], miter: String, limit: u32) -> Result<Proof, Stop> {
-    let broken = |error: &std::io::Error| Stop::broken("the prover's folder", error);
+    let temporary = std::env::temp_dir();
+    let broken = |error: &std::io::Error| Stop::file(&temporary, error);
     let place = tempfile::tempdir().map_err(|error| broken(&error))?;
     let write = |name: &str, text: String| {
         std::fs::write(place.path().join(name), text).map_err(|error| broken(&error))

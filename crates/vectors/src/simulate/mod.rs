@@ -91,7 +91,7 @@ pub fn simulate(
 ) -> Result<Outcome, SimulateError> {
     let manifest = read(|name| std::fs::read(directory.join(name)))?.manifest;
     // The tools run inside the directory, so their output needs a full path.
-    let work = std::path::absolute(work).map_err(|error| Stop::broken("the work directory", &error))?;
+    let work = std::path::absolute(work).map_err(|error| Stop::file(work, &error))?;
     printed(simulator, &manifest, directory, &work, limit)
         .and_then(|text| {
             let none =
