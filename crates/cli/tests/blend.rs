@@ -246,3 +246,16 @@ fn what_the_machine_cannot_do_is_said() {
         }
     }
 }
+
+/// A triangle's place is counted among all primitives: behind a polygon its own k_t's ask for BLEND by pixel.
+#[test]
+fn uneven_kt_behind_a_polygon_wants_blend_by_pixel() {
+    let folder = tempfile::tempdir().unwrap();
+    let polygon = "P 3 1 1 0.5 1 0 0 0   20 1 0.5 1 0 0 0   1 14 0.5 1 0 0 0";
+    let triangle = "T 1 1 0.5 0 0 1 0   20 1 0.5 0 0 1 1   1 14 0.5 0 0 1 0";
+    std::fs::write(folder.path().join("a.tri"), format!("size 24 16\n{polygon}\nblend 1\n{triangle}\n"))
+        .unwrap();
+    let (code, error) = run(folder.path(), &["render", "a.tri", "--machine", "polygon"]);
+    assert_eq!(code, Some(2), "{error}");
+    assert!(error.contains("--set blend.kind=interpolated"), "{error}");
+}

@@ -189,3 +189,20 @@ fn lines_go_through_the_other_commands() {
     let written = std::fs::read_to_string(folder.path().join("b.tri")).expect("a triangle file");
     assert_eq!(written.lines().filter(|line| line.starts_with("S ")).count(), 5, "{written}");
 }
+
+/// On a machine with POLY too a line is drawn between the polygon before it and the triangle behind it.
+#[test]
+fn a_line_keeps_its_place_behind_a_polygon() {
+    let polygon = "P 4 1 1 0.5 1 0 0 0   20 1 0.5 1 0 0 0   20 14 0.5 1 0 0 0   1 14 0.5 1 0 0 0";
+    let line = "S 2 6.4 0.5 0 1 0 0   20 6.4 0.5 0 1 0 0";
+    let triangle = "T 1 1 0.5 0 0 1 0   20 1 0.5 0 0 1 0   1 14 0.5 0 0 1 0";
+    let folder = folder(&format!("size 24 16\ndepth always\n{polygon}\n{line}\n{triangle}\n"));
+    let machine = [&LINES[..], &["--machine", "polygon", "--json"]].concat();
+    let machine = [&machine[..], &["--set", "screen.width=24", "--set", "screen.height=16"]].concat();
+    for (x, id) in [("5", 2), ("18", 1)] {
+        let arguments = [&["explain", "a.tri", x, "6"], &machine[..]].concat();
+        let output = edgewalk(folder.path(), &arguments).output().expect("runs");
+        let explained: serde_json::Value = serde_json::from_slice(&output.stdout).expect("JSON");
+        assert_eq!((&explained["id"], &explained["stored"]["id"]), (&id.into(), &id.into()), "{explained}");
+    }
+}
