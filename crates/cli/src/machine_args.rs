@@ -75,7 +75,7 @@ impl MachineArgs {
         let machine = words.next().unwrap_or_default();
         let own: Vec<Setting> = words.map(|setting| Setting { option: "", setting }).collect();
         for (key, value) in own.iter().filter_map(Setting::parts) {
-            let other = |of: &Setting| of.parts().is_some_and(|of| of.0 == key && of.1 != value);
+            let other = |of: &Setting| of.parts().is_some_and(|of| of.0 == key && differ(key, value, of.1));
             if let Some(setting) = self.settings().find(other) {
                 return Err(anyhow!("{text}: {setting} gives {key} another value; leave one of the two out"));
             }
@@ -132,6 +132,16 @@ impl Setting<'_> {
     fn parts(&self) -> Option<(&str, &str)> {
         self.setting.split_once('=').map(|(key, value)| (key.trim(), value.trim()))
     }
+}
+
+/// Whether two values of a key are not the same: `4` and `04` are. Which of them is none is said where it is set.
+fn differ(key: &str, one: &str, other: &str) -> bool {
+    let shown = |value: &str| {
+        let mut machine = Machine::default();
+        machine.set(key, value).ok()?;
+        KEYS.iter().find(|known| known.name == key).map(|known| known.show(&machine))
+    };
+    matches!((shown(one), shown(other)), (Some(one), Some(other)) if one != other)
 }
 
 /// What the input asks of a machine.

@@ -1,7 +1,7 @@
 //! `edgewalk compare` as a user runs it.
 #![allow(clippy::unwrap_used)] // a test that unwraps nothing reports it
 
-use crate::support::{colors, edgewalk, names, npy, report, run};
+use crate::support::{TRIANGLE, colors, edgewalk, names, npy, report, run};
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -272,4 +272,19 @@ fn machines_that_shade_differently_are_compared() {
         code == Some(2) && error.contains("c.tri says itself how it is shaded; leave :gouraud out"),
         "{error}"
     );
+}
+
+/// A triangle file names its mode: two machines draw it as it says.
+#[test]
+fn the_shading_of_a_file_is_its_own() {
+    let folder = tempfile::tempdir().expect("a folder");
+    std::fs::write(folder.path().join("a.tri"), TRIANGLE).expect("written");
+    let words = ["compare", "small", "small,setup.lanes=1", "a.tri", "--shading", "phong", "--out", "o"];
+    let (code, error) = run(folder.path(), &words);
+    assert_eq!(code, Some(2), "{error}");
+    assert!(
+        error.contains("--shading phong: a.tri says itself how it is shaded; leave --shading out"),
+        "{error}"
+    );
+    assert!(!folder.path().join("o").exists());
 }

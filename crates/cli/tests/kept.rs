@@ -1,7 +1,7 @@
 //! No command writes over what it reads.
 #![allow(clippy::unwrap_used)] // a test that unwraps nothing reports it
 
-use crate::support::{edgewalk, ended};
+use crate::support::{TRIANGLE, edgewalk, ended};
 use std::fs;
 use std::path::Path;
 
@@ -100,8 +100,7 @@ fn files_that_inputs_name_stay_as_they_are() {
         let (code, error) =
             ended(&edgewalk(folder.path(), &[&[command], rest, small].concat()).output().unwrap());
         assert_eq!(code, Some(2), "{words:?}: {error}");
-        let said =
-            format!("{file}: this run has read this file, and would replace or remove it; permitted: ");
+        let said = format!("{file}: this run reads this file, and would replace or remove it; permitted: ");
         assert!(error.contains(&said), "{words:?}: {error}");
         assert_eq!(fs::read(at(file)).unwrap(), before, "{words:?}");
     }
@@ -112,4 +111,37 @@ fn files_that_inputs_name_stay_as_they_are() {
     }
     let same = ["emit", "--machine", "hw/machine.toml", "--out", "hw"];
     assert_eq!(ended(&edgewalk(folder.path(), &same).output().unwrap()).0, Some(0));
+}
+
+/// A link in --out goes, and what it names stays.
+#[test]
+fn a_link_to_an_input_is_replaced() {
+    let folder = tempfile::tempdir().unwrap();
+    let machine =
+        edgewalk(folder.path(), &["config", "print", "--machine", "small"]).output().unwrap().stdout;
+    fs::write(folder.path().join("my.toml"), &machine).unwrap();
+    fs::create_dir(folder.path().join("hw")).unwrap();
+    std::os::unix::fs::symlink("../my.toml", folder.path().join("hw/machine.toml")).unwrap();
+    let run = edgewalk(folder.path(), &["emit", "--machine", "my.toml", "--out", "hw"]).output().unwrap();
+    assert_eq!(ended(&run).0, Some(0));
+    assert_eq!(fs::read(folder.path().join("my.toml")).unwrap(), machine);
+    assert!(!fs::symlink_metadata(folder.path().join("hw/machine.toml")).unwrap().is_symlink());
+}
+
+/// A sweep that would replace the machine it begins with says so before it draws anything.
+#[test]
+fn a_sweep_keeps_its_own_machine() {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("a.tri"), TRIANGLE).unwrap();
+    let sweep = |machine: &str, vary: &str| {
+        let words = ["sweep", "a.tri", "--machine", machine, "--vary", vary, "--out", "o", "-q"];
+        ended(&edgewalk(folder.path(), &words).output().unwrap())
+    };
+    assert_eq!(sweep("small", "fifo.span=1,2").0, Some(0));
+    let kept = ["sweep.json", "runs.jsonl"].map(|name| fs::read(folder.path().join("o").join(name)).unwrap());
+    let (code, error) = sweep("o/best_cycles.toml", "fifo.inflight=1,2");
+    assert_eq!(code, Some(2), "{error}");
+    assert!(error.contains("o/best_cycles.toml: this run reads this file"), "{error}");
+    let now = ["sweep.json", "runs.jsonl"].map(|name| fs::read(folder.path().join("o").join(name)).unwrap());
+    assert!(kept == now);
 }

@@ -244,3 +244,20 @@ fn a_key_is_explained_by_the_machines_of_its_values() {
     }
     assert_eq!(checked, 14);
 }
+
+/// A triangle that breaks a bit fewer is one that the machine takes: on its places, in its guard band. Beside a slope edge
+/// pixels are drawn of which nothing is proved.
+#[test]
+fn what_a_machine_cannot_take_is_not_named() {
+    for (setting, proved) in [
+        ("edge.kind=slope", "at most 0.8154 LSB, proved at pixels inside the triangle\n"),
+        ("screen.subpixel_bits=4", "at most 0.8154 LSB, proved\n"),
+    ] {
+        let page = explain(&[setting], false);
+        assert_eq!(
+            (page.matches(proved).count(), page.matches("bits, triangle (").count()),
+            (2, 0),
+            "{setting}\n{page}"
+        );
+    }
+}

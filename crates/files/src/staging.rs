@@ -66,6 +66,23 @@ impl Staging {
         file.write_all(contents.as_ref()).and_then(|()| file.flush()).with_context(|| self.name(name))
     }
 
+    /// Accepts names of files to replace or to remove. A link may go: what it names stays.
+    ///
+    /// # Errors
+    /// One of them is an input of this run.
+    pub fn accept(&self, names: impl IntoIterator<Item = impl AsRef<Path>>) -> Result<()> {
+        let places = names.into_iter().map(|name| self.target.join(name));
+        let mut files =
+            places.filter(|place| fs::symlink_metadata(place).is_ok_and(|there| !there.is_symlink()));
+        files.find(|place| inputs::was_read(place)).map_or(Ok(()), |place| {
+            Err(anyhow!(
+                "{}: this run reads this file, and would replace or remove it; permitted: a place without such a file; \
+                 give the output another folder or name",
+                place.display()
+            ))
+        })
+    }
+
     /// Moves everything into the target. `own` are the files that this command may write: those that it did not write
     /// this time are of an earlier run, and removed; nothing else is touched. Links to folders in the target are not
     /// followed: a new file behind one is an error, an old one stays.
@@ -94,14 +111,8 @@ impl Staging {
                 && link_on_the_way(&self.target, name).is_none()
         });
         let stale: Vec<PathBuf> = stale.collect();
-        let mut inputs = names.iter().chain(&stale).filter(|name| inputs::was_read(&self.target.join(name)));
-        if let Some(name) = inputs.find(|name| !same(&new.join(name), &self.target.join(name))) {
-            return Err(anyhow!(
-                "{}: this run has read this file, and would replace or remove it; permitted: a folder without such a file; \
-                 name another --out",
-                self.target.join(name).display()
-            ));
-        }
+        let lost = |name: &&PathBuf| !same(&new.join(name), &self.target.join(name));
+        self.accept(names.iter().chain(&stale).filter(lost))?;
         let mut moves = Moves { old: self.scratch.path().join(OLD), done: Vec::new(), made: Vec::new() };
         let replace = |name: &PathBuf| moves.replace(&new.join(name), &self.target.join(name));
         let moved = names.iter().try_for_each(replace);

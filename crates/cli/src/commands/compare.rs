@@ -195,6 +195,12 @@ impl Asked {
                 input.name()
             ));
         }
+        if let (Some(_), Some(shading)) = (screen, &args.shading) {
+            return Err(anyhow!(
+                "--shading {shading}: {} says itself how it is shaded; leave --shading out",
+                input.name()
+            ));
+        }
         let mut plan = machine.named(text, screen, no_needs)?;
         let (shading, shaded) = match own.or(common) {
             Some(asked) => asked,

@@ -329,6 +329,7 @@ fn begun(sweep: &Sweep, out: &Path) -> Result<(Store, Vec<Value>)> {
     std::fs::create_dir_all(out).with_context(|| format!("--out {}", out.display()))?;
     let opened = Store::open(&out.join(ROWS))?;
     let staging = Staging::new(out)?;
+    staging.accept(outcome::files())?;
     staging.write(DEFINITION, serde_json::to_string_pretty(&sweep.definition)? + "\n")?;
     staging.publish(&[DEFINITION])?;
     Ok(opened)

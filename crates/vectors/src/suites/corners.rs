@@ -15,6 +15,7 @@ pub(super) fn cases(machine: &Plan) -> Vec<Case> {
     cases.extend(without_pixels(&pen));
     cases.extend(neighbours(&pen));
     cases.extend(thin(&pen));
+    cases.extend(smallest_carries(&pen));
     cases.extend(at_the_screen_sides(&pen));
     cases.extend(extreme_values(&pen));
     cases.extend(ties::cases(machine));
@@ -116,6 +117,34 @@ fn thin(pen: &Pen) -> Vec<Case> {
         cases.extend(too_flat(pen, long));
     }
     cases
+}
+
+/// A minor edge that passes a centre in its first line by less than the unit of its remainder: R - f = -1, which carries.
+fn smallest_carries(pen: &Pen) -> Vec<Case> {
+    let Some([x, y, dx, dy]) = smallest_carry(pen) else { return Vec::new() };
+    let at = |points| pen.shaded(points, RAMP);
+    let edge = [(x, y), (x + dx, y + dy)];
+    vec![
+        case("smallest_carry_of_the_upper_edge", [at([edge[0], edge[1], (x - 2.0, y + dy + 2.0)])]),
+        case("smallest_carry_of_the_lower_edge", [at([(x + 1.0, y - 2.0), edge[0], edge[1]])]),
+    ]
+}
+
+/// Where such an edge begins, and how far it goes, px. In sub-pixels: a pixel has p of them, and the edge begins e above a
+/// line of centres and g before the second column from the left. It passes that column a line below if (p + e) dx = g dy + r
+/// with 0 < r <= p.
+fn smallest_carry(pen: &Pen) -> Option<[f64; 4]> {
+    let p = pen.subpixels() as i64; // a power of two
+    let step = pen.vertex_step();
+    let e = p / 2 % step;
+    let all = (2 * p..5 * p).step_by(step as usize);
+    let all = all.flat_map(|dy| (step..dy).step_by(step as usize).map(move |dx| (dx, dy)));
+    let (g, dx, dy) = all
+        .map(|(dx, dy)| ((p + e) * dx / dy, (p + e) * dx % dy, dx, dy))
+        .find(|(g, r, ..)| (1..=p).contains(r) && (p / 2 - g).rem_euclid(step) == 0)
+        .map(|(g, _, dx, dy)| (g, dx, dy))?;
+    let px = |sub: i64| sub as f64 / p as f64;
+    Some([px(4 * p + p / 2 - g), px(2 * p + p / 2 - e), px(dx), px(dy)])
 }
 
 /// Of a triangle one edge alone runs so many pixels in a line.

@@ -26,6 +26,11 @@ impl<'a> Pen<'a> {
         f64::from(1u32 << self.machine.widths().center_fraction)
     }
 
+    /// Sub-pixels between two places where a vertex may lie.
+    pub fn vertex_step(&self) -> i64 {
+        1 << (self.machine.widths().center_fraction - self.machine.subpixel_bits)
+    }
+
     /// Columns and lines of the screen.
     pub fn size(&self) -> (f64, f64) {
         (f64::from(self.machine.width), f64::from(self.machine.height))

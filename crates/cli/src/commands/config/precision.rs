@@ -1,8 +1,8 @@
 //! How right the outputs of a machine are, and how many fraction bits its screen needs.
 
-use edgewalk_machine::{Channel, Fill, NoBound, Plan};
+use edgewalk_machine::{Channel, EdgeKind, Fill, NoBound, Plan};
 use edgewalk_numerics::solver::solve;
-use edgewalk_numerics::{ChannelBits, Dyadic, Rounding, Solution, Target};
+use edgewalk_numerics::{ChannelBits, Dyadic, Rounding, Solution, Target, Witness};
 use serde::Serialize;
 use std::fmt::Write as _;
 
@@ -11,6 +11,9 @@ use std::fmt::Write as _;
 pub struct Precision {
     /// Where the additions behind a fragment come from, and how many there are at most.
     additions: String,
+    /// For which pixels bounds hold, behind `proved`: a slope edge also draws pixels outside the triangle.
+    #[serde(skip)]
+    holds: &'static str,
     z: Proof,
     color: Proof,
 }
@@ -28,7 +31,8 @@ struct Proof {
     needed_fraction_bits: Option<u32>,
     /// Why no number of them will do.
     out_of_reach: Option<String>,
-    /// A triangle that breaks one bit fewer, and how; none where the vertex bits stand in the way, or none was found.
+    /// A triangle that breaks one bit fewer, and how; none where the vertex bits stand in the way, where none was found, or
+    /// where the machine takes no such vertices.
     one_bit_fewer: Option<String>,
 }
 
@@ -37,6 +41,10 @@ impl Precision {
     pub fn of(machine: &Plan) -> Self {
         Precision {
             additions: machine.screen().to_string(),
+            holds: match machine.edge_kind {
+                EdgeKind::Exact => "",
+                EdgeKind::Slope => " at pixels inside the triangle",
+            },
             z: Proof::of(machine, 0, "z"),
             color: Proof::of(machine, 1, "color"),
         }
@@ -54,7 +62,7 @@ impl Precision {
         for (name, proof) in [("z", &self.z), ("colour", &self.color)] {
             _ = match (proof.bound, &proof.no_bound) {
                 (Some(bound), _) => {
-                    writeln!(t, "    {name:<6} error           at most {bound:.4} LSB, proved")
+                    writeln!(t, "    {name:<6} error           at most {bound:.4} LSB, proved{}", self.holds)
                 }
                 (None, why) => {
                     writeln!(
@@ -110,10 +118,18 @@ impl Proof {
             needed_fraction_bits: bits,
             one_bit_fewer: witness
                 .and_then(|solution| solution.one_bit_fewer.as_ref())
+                .filter(|witness| takes(machine, witness))
                 .map(ToString::to_string),
             out_of_reach: solved.err(),
         }
     }
+}
+
+/// Whether the vertices of the triangle are some of the machine: theirs are in 2^-8 px.
+fn takes(machine: &Plan, witness: &Witness) -> bool {
+    let limit = ((1i32 << machine.guard_bits) - 1) << 8;
+    let inside = |(x, y, _): &(i32, i32, u64)| x.abs() <= limit && y.abs() <= limit;
+    machine.subpixel_bits == 8 && witness.vertices.iter().all(inside)
 }
 
 /// The least fraction bits with which nothing wraps and the output is within 1 LSB of the plane through the host's values.

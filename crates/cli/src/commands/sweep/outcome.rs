@@ -38,6 +38,12 @@ fn best_file(objective: &str) -> String {
     format!("best_{objective}.toml")
 }
 
+/// What a sweep writes at its end.
+pub fn files() -> Vec<String> {
+    let bests = OBJECTIVES.iter().map(|objective| best_file(objective.name));
+    bests.chain([TABLE.to_owned(), REPORT.to_owned()]).collect()
+}
+
 impl<'o> Outcome<'o> {
     /// Of the rows that belong to the sweep.
     pub fn new(sweep: &'o Sweep, rows: &'o BTreeMap<String, Value>, out: &'o Path, made: usize) -> Self {
@@ -75,8 +81,7 @@ impl<'o> Outcome<'o> {
                 staging.write(&best_file(objective.name), format!("# {about}\n{}", machine.to_toml()))?;
             }
         }
-        let bests = OBJECTIVES.iter().map(|objective| best_file(objective.name));
-        staging.publish(&bests.chain([TABLE.to_owned(), REPORT.to_owned()]).collect::<Vec<_>>())?;
+        staging.publish(&files())?;
         spinner.finish_and_clear();
         Ok(())
     }
