@@ -292,6 +292,29 @@ fn picture_of_any_program_is_judged_by_colour() {
     }
 }
 
+/// A grey picture has its value in all three colours; what a pixel lets through is left aside.
+#[test]
+fn pictures_of_other_kinds_are_judged() {
+    let folder = tempfile::tempdir().unwrap();
+    let grey = "T 2 2 0.5 0.6 0.6 0.6 0   60 2 0.5 0.6 0.6 0.6 0   2 40 0.5 0.6 0.6 0.6 0";
+    std::fs::write(folder.path().join("in.tri"), format!("size 64 48\n{grey}\n")).unwrap();
+    let (code, error) =
+        ended(&edgewalk(folder.path(), &["render", "in.tri", "--out", "r", "--quiet"]).output().unwrap());
+    assert_eq!(code, Some(0), "{error}");
+    let drawn = image::open(folder.path().join("r/image.png")).unwrap();
+    drawn.to_luma8().save(folder.path().join("grey.png")).unwrap();
+    drawn.to_luma_alpha16().save(folder.path().join("both.png")).unwrap();
+    drawn.to_rgba8().save(folder.path().join("alpha.png")).unwrap();
+    for name in ["grey.png", "both.png", "alpha.png"] {
+        let (found, report) = judged(folder.path(), &[name]);
+        assert_eq!((found, &report["compared"]), (Some(0), &serde_json::json!(["rgb"])), "{name}: {report}");
+    }
+    let mut wrong = drawn.to_rgba8();
+    wrong.pixels_mut().for_each(|pixel| pixel.0[2] = 255 - pixel.0[2]);
+    wrong.save(folder.path().join("wrong.png")).unwrap();
+    assert_eq!(judged(folder.path(), &["wrong.png"]).0, Some(1));
+}
+
 #[test]
 fn every_engine_of_raster_passes() {
     let folder = tempfile::tempdir().unwrap();
@@ -347,6 +370,8 @@ fn arrays_that_cannot_be_are_refused() {
     npy(&at("type/z.npy"), "<c16", "(48, 64)", &values(2 * pixels));
     npy(&at("cut/z.npy"), "<f8", "(48, 64)", &values(pixels - 1));
     npy(&at("int/id.npy"), "<f8", "(48, 64)", &values(pixels));
+    std::fs::create_dir(at("whole")).unwrap();
+    npy(&at("whole/coverage.npy"), "<i4", "(48, 64)", &[[0, 0, 0, 0]; 64 * 48].concat());
     npy(&at("many/lit.npy"), "<i4", "(48, 64)", &[[0, 1, 0, 0]; 64 * 48].concat());
     std::fs::write(at("short/z.npy"), b"\x93NUM").unwrap();
     std::fs::write(at("header/z.npy"), b"\x93NUMPY\x02\x00\xff\xff\xff\x7f{}").unwrap();
@@ -359,7 +384,7 @@ fn arrays_that_cannot_be_are_refused() {
     std::fs::write(at("not.png"), b"nothing").unwrap();
     image::RgbImage::new(64, 47).save(at("small.png")).unwrap();
     image::RgbImage::new(64, 48).save(at("mine.png")).unwrap();
-    let cases: [(&[&str], &str); 20] = [
+    let cases: [(&[&str], &str); 21] = [
         (&["shape"], "its shape is [48, 65]; permitted: [48, 64], lines from the top, columns"),
         (&["turned"], "its shape is [3, 48, 64]; permitted: [48, 64, 3]"),
         (&["type"], "permitted: float32, float64, or unsigned integers in LSB"),
@@ -379,6 +404,7 @@ fn arrays_that_cannot_be_are_refused() {
         (&["not.png"], "not.png"),
         (&["small.png"], "the picture has 64x47 pixels; permitted: 64x48"),
         (&["mine.png", "mine.png"], "given twice"),
+        (&["whole/coverage.npy", "whole/coverage.npy"], "coverage.npy: given twice"),
         (&["mine.png", "--color-lsb=-1"], "permitted: 0 or more"),
         (&["mine.png", "--depth-bits", "49"], "49 is not in 1..=48"),
         (&["mine.png", "--rule", "left"], "possible values: top-left"),

@@ -242,4 +242,29 @@ fn requirements_that_clash_are_refused() {
         assert!(code == Some(2) && said.contains(why), "{words:?}: {said}");
         assert!(!folder.path().join("out").exists());
     }
+    // One figure keeps both.
+    let both = ["--require", "cycles<=5", "--require", "cycles>=5", "--out", "both", "--chunks", "1"];
+    let words = [&["sweep", "plan", "a.tri", "--vary", "setup.lanes=1,2"], &both[..]].concat();
+    let (code, said) = run(folder.path(), &words);
+    assert_eq!(code, Some(0), "{said}");
+}
+
+/// A sample has as many points as it was asked for, however often a random one comes again.
+#[test]
+fn a_sample_is_as_large_as_it_was_asked_for() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("a.tri"), TRIANGLE).unwrap();
+    let grid = [
+        "--vary",
+        "fifo.span=1..64",
+        "--vary",
+        "formats.z_fraction=0..20",
+        "--vary",
+        "formats.color_fraction=0..9",
+    ];
+    let sample = ["--sample", "3000", "--chunks", "1", "--out", "o", "--json"];
+    let words = [&["sweep", "plan", "a.tri"], &grid[..], &sample].concat();
+    let output = edgewalk(folder.path(), &words).output().unwrap();
+    let plan: Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert_eq!(plan["points"], 3000, "{plan}");
 }

@@ -269,6 +269,19 @@ mod tests {
     use crate::sweep::judge::{Judge, OverInputs, OverMemories};
     use serde_json::json;
 
+    /// Where synthesis follows, only what lies beyond the error of the estimate is ruled out.
+    #[test]
+    fn the_error_of_an_estimate_counts_for_the_machine() {
+        let row = json!({ "estimate": { "est_lut4": { "value": 1000.0, "error": 50.0 } } });
+        for (text, out) in
+            [("lut4<=960", false), ("lut4<=940", true), ("lut4>=1040", false), ("lut4>=1060", true)]
+        {
+            let required =
+                Requirement::list(&[text.to_owned()], &[], Some("ice40-hx8k")).expect("a requirement");
+            assert_eq!(required[0].rules_out_early(&row), out, "{text}");
+        }
+    }
+
     #[test]
     fn a_row_alone_breaks_what_its_weighted_sum_breaks() {
         let required = Requirement::list(&["cycles<=100".to_owned()], &[], None).expect("a requirement");
