@@ -7,6 +7,9 @@ use serde_json::{Value, json};
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
+/// What is said of the formats.
+const TOLD: &str = include_str!("../../../docs/json.md");
+
 /// The format of a document whose first keys are `format` and `version`; of a manifest, `format_version`.
 fn format(document: &Value, from: &str) -> String {
     let keys: Vec<&String> =
@@ -17,6 +20,12 @@ fn format(document: &Value, from: &str) -> String {
     assert!(version.is_u64() || version.as_array().is_some_and(|list| list.len() == 2), "{from}: {version}");
     let format = document["format"].as_str().unwrap();
     assert!(format.starts_with("edgewalk-"), "{from}: {format}");
+    if let [major, minor] = version.as_array().map_or(&[][..], Vec::as_slice) {
+        // A row names the version of a format that has new keys.
+        let row = TOLD.lines().find_map(|line| line.strip_prefix(&format!("| `{format}` | ")));
+        let named = row.and_then(|row| row.split(" | ").next()).filter(|cell| cell.starts_with("1."));
+        assert_eq!(format!("{major}.{minor}"), named.unwrap_or("1.0"), "docs/json.md of {format}");
+    }
     format.to_owned()
 }
 
@@ -66,9 +75,8 @@ fn every_document_has_format_and_version() {
         let document = serde_json::from_str(&std::fs::read_to_string(path).unwrap()).unwrap();
         kinds.insert(format(&document, &path.display().to_string()));
     }
-    let told = include_str!("../../../docs/json.md");
     for format in printed.iter().chain(&kinds) {
-        assert!(told.contains(&format!("`{format}`")), "docs/json.md does not tell of {format}");
+        assert!(TOLD.contains(&format!("`{format}`")), "docs/json.md does not tell of {format}");
     }
     println!(
         "checked {} printed documents, {} files of {} formats",

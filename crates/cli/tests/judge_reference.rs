@@ -82,6 +82,49 @@ fn bits_of_the_machine_leave_its_bounds() {
     }
 }
 
+/// Where sums may wrap nothing is proved. The report says so, what holds instead, and how to ask for something else.
+#[test]
+fn tolerance_without_a_proof_is_told() {
+    let glass = "size 640 4\nblend 1\nT 0 0 .5 1 0 0 .5  640 0 .6 0 1 .3 .5  0 4 .7 0 .2 1 .5\n";
+    let plain = glass.replace("blend 1\n", "");
+    let narrow = ["--adapt", "--set", "formats.color_fraction=5"];
+    let shallow = ["--adapt", "--set", "formats.z_fraction=5"];
+    let kt = ["--adapt", "--set", "blend.kind=interpolated", "--set", "blend.kt_fraction=5"];
+    let why = "8833 additions may err by 138.03125 LSB";
+    let mut checked = 0;
+    for (text, set, key, name, option) in [
+        (glass, &narrow[..], "color_no_bound", "colour", "--color-lsb"),
+        (&plain, &narrow, "color_no_bound", "colour", "--color-lsb"),
+        (glass, &kt, "color_no_bound", "colour", "--color-lsb"),
+        (&plain, &shallow, "z_no_bound", "depth", "--depth-lsb"),
+    ] {
+        let folder = folder(text);
+        raster(folder.path(), set, "m");
+        let (_, report, error) = judged(folder.path(), &[&["m"], set].concat());
+        let tolerance = &report["tolerance"];
+        assert!(tolerance[key].as_str().is_some_and(|told| told.starts_with(why)), "{error}{tolerance}");
+        let told = ["z_no_bound", "color_no_bound"].iter().filter(|key| !tolerance[key].is_null()).count();
+        assert_eq!(told, 1, "{tolerance}");
+        let said = |options: &[&str]| {
+            let words = [&["judge", "in.tri", "m"], set, options].concat();
+            String::from_utf8(edgewalk(folder.path(), &words).output().unwrap().stdout).unwrap()
+        };
+        let line = said(&[]);
+        let line = line.lines().find(|line| line.contains("no bound is proved")).unwrap();
+        assert!(line.starts_with(&format!("{name}: no bound is proved: {why}")), "{line}");
+        let end = format!("; the tolerance takes 1 LSB for such a value; {option} sets another tolerance");
+        assert!(line.ends_with(&end), "{line}");
+        // What is asked for is no bound.
+        for options in [&[option, "999"][..], &["--against", "machine"]] {
+            let (code, report, error) = judged(folder.path(), &[&["m"], set, options].concat());
+            assert_eq!((code, &report["tolerance"][key]), (Some(0), &Value::Null), "{error}{report}");
+            assert!(!said(options).contains("no bound"), "{options:?}");
+        }
+        checked += 1;
+    }
+    assert_eq!(checked, 4);
+}
+
 /// Slivers of 1 to 2 pixels, whose colour runs across them.
 fn slivers() -> String {
     let sliver = |n: u32| {

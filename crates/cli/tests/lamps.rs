@@ -130,6 +130,31 @@ fn several_lights_are_drawn_one_after_the_other_and_added() {
     }
 }
 
+/// DITHER rounds the picture of each light by itself, so the bound of the sum has a step for each.
+#[test]
+fn dithered_pictures_of_several_lights_are_within_their_bounds() {
+    let folder = tempfile::tempdir().unwrap();
+    scene(folder.path(), &[BULB, FLOOD].concat());
+    let dithered =
+        [&["s.toml", "--shading", "phong"], &SMALL[..], &LAMP, &["--set", "dither.bits=4"]].concat();
+    let render = [&["render"], &dithered[..], &["--out", "r", "--json"]].concat();
+    let output = edgewalk(folder.path(), &render).output().unwrap();
+    let report: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    let shaded = &report["comparison"]["shaded"];
+    let number = |key: &str| shaded[key].as_f64().unwrap();
+    assert!(output.status.success() && number("beyond") == 0.0 && number("pixels") > 1000.0, "{shaded}");
+    // A step is 17 LSB. One for both pictures would not do.
+    assert!(number("error") > number("bound") - 17.0, "{shaded}");
+    // `explain` has the bound of each light at the pixel with the largest.
+    let [x, y] = [0, 1].map(|k| shaded["bound_at"][k].to_string());
+    let explain = [&["explain", "s.toml", &x, &y, "--json"], &dithered[1..]].concat();
+    let output = edgewalk(folder.path(), &explain).output().unwrap();
+    let told: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    let lights = told["shaded"].as_array().unwrap();
+    let sum: f64 = lights.iter().map(|light| light["bound"].as_f64().unwrap()).sum();
+    assert!(lights.len() == 2 && (sum - number("bound")).abs() < 1e-9, "{sum}: {shaded}");
+}
+
 /// What an error advises draws the picture, or the error says that no machine does.
 #[test]
 fn what_is_advised_for_several_lights_works() {

@@ -36,7 +36,8 @@ pub struct ShadedPixel {
     /// What LAMP does in its place.
     #[serde(skip_serializing_if = "Option::is_none")]
     lamp: Option<Lamp>,
-    /// Proved bound of the colour against golden's, LSB; golden with the machine's texel, where its own is another.
+    /// Proved bound of the stored colour against golden's, LSB, with the step of DITHER; golden with the machine's texel, where its own
+    /// is another.
     bound: Option<f64>,
     /// Why there is none.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -157,7 +158,7 @@ pub fn shaded(
         false => None,
     };
     let (material, bound, no_bound) = (record.material, *feed.proof.bounds.get(id)?, feed.proof.no_bound);
-    let bound = no_bound.is_none().then_some(bound);
+    let bound = no_bound.is_none().then_some(bound + machine.dither_step());
     let no_bound = no_bound.map(|why| why.to_string());
     Some(ShadedPixel { material, terms, texel, turned, normal, lamp, bound, no_bound })
 }

@@ -119,7 +119,9 @@ fn judge(
     );
     let layers = Layers::of(machine, frame, None, None).filter(|_| !tolerance.is_asked_for);
     let largest = layers.as_ref().map(|of| of.bound.iter().copied().fold(0.0, f64::max) + tolerance.step);
-    let mut judgement = Judgement::new(reference, outside, Tolerance { layers: largest, ..*tolerance });
+    let color_no_bound = layers.as_ref().and_then(|of| of.no_bound).or(tolerance.color_no_bound);
+    let shown = Tolerance { layers: largest, color_no_bound, ..*tolerance };
+    let mut judgement = Judgement::new(reference, outside, shown);
     ensure!(
         !judgement.compared.is_empty(),
         "no array can be compared: {}; permitted: one or more of coverage, id, z and rgb{}; add one of these to the picture",

@@ -107,7 +107,7 @@ pub(crate) struct Allowed<'a> {
     phong: HashMap<usize, [f64; 3]>,
     /// Pixels of a line.
     width: usize,
-    /// The step of DITHER, LSB.
+    /// The steps of DITHER, one for each picture that is added (bound 18), LSB.
     step: f64,
     found: Shaded,
 }
@@ -195,7 +195,7 @@ impl<'a> Allowed<'a> {
                 }
             });
         }
-        let (width, step) = (frame.width as usize, machine.dither_step());
+        let (width, step) = (frame.width as usize, machine.dither_step() * f64::from(proof.pictures));
         Self { proof, branches, phong, width, step, found: Shaded { texels: looked, ..Shaded::default() } }
     }
 

@@ -22,7 +22,8 @@ use std::path::PathBuf;
 /// PICTURE is a folder with those of coverage.npy, id.npy, z.npy, rgb.npy and lit.npy that there are, as `raster` writes them; or such
 /// files by name; or a PNG. Depths and colours are floats in 0 to 1 or unsigned integers in LSB, row 0 on top. With the rule
 /// textbook the floats may lie outside of 0 to 1.
-/// A pixel is right if its depth and colour are within the tolerance: the proved bound of the machine's formats, unless given.
+/// A pixel is right if its depth and colour are within the tolerance: the proved bound of the machine's formats, unless given. Where
+/// no bound is proved, the tolerance is 1 LSB, and the report says why.
 #[derive(clap::Args)]
 #[command(after_help = "Examples:
   edgewalk judge triangles.tri out/mine                        a folder of arrays
@@ -59,10 +60,12 @@ pub struct Args {
     /// Bits of a colour of the picture [default: formats.color_bits]
     #[arg(long, value_name = "BITS", value_parser = whole::<u32>(1..=48))]
     color_bits: Option<u32>,
-    /// Largest permitted error of a depth, LSB [default: the proved bound of the machine; 1 if --depth-bits is not formats.z_bits]
+    /// Largest permitted error of a depth, LSB [default: the proved bound of the machine; 1 where none is proved, or if
+    /// --depth-bits is not formats.z_bits]
     #[arg(long, value_name = "LSB", value_parser = real(0.0..=f64::INFINITY, "LSB"))]
     depth_lsb: Option<f64>,
-    /// Largest permitted error of a colour, LSB [default: the proved bound of the machine; 1 if --color-bits is not formats.color_bits]
+    /// Largest permitted error of a colour, LSB [default: the proved bound of the machine; 1 where none is proved, or if
+    /// --color-bits is not formats.color_bits]
     #[arg(long, value_name = "LSB", value_parser = real(0.0..=f64::INFINITY, "LSB"))]
     color_lsb: Option<f64>,
     /// Output directory for judge.json, judge.xml (JUnit) and differences.png

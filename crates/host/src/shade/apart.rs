@@ -45,9 +45,10 @@ pub fn apart(frame: &Frame, machine: &Plan) -> Result<Option<Vec<Frame>>> {
 }
 
 impl Proof {
-    /// What is proved of the sum of two pictures of the same triangles: bounds add up, and both doubt.
+    /// What is proved of the sum of two pictures of the same triangles: bounds and steps of DITHER add up, and both doubt.
     #[must_use]
     pub fn and(mut self, other: Proof) -> Proof {
+        self.pictures += other.pictures;
         self.bounds.iter_mut().zip(other.bounds).for_each(|(own, other)| *own += other);
         self.doubts.iter_mut().zip(other.doubts).for_each(|(own, other)| *own = own.max(other));
         for (own, other) in self.errors.iter_mut().zip(other.errors) {

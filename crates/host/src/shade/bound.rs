@@ -18,6 +18,8 @@ pub struct Proof {
     pub errors: Vec<IndexErrors>,
     /// Texels of each surface, where it has a texture.
     pub textured: Vec<Option<Textured>>,
+    /// Pictures of the machine that are added: one, or one for each light at a point. DITHER rounds each by itself.
+    pub pictures: u32,
 }
 
 impl Proof {
@@ -44,6 +46,7 @@ impl Proof {
             doubts: errors.iter().map(|error| error.diffuse / one).collect(),
             errors,
             textured,
+            pictures: 1,
         }
     }
 }

@@ -267,17 +267,25 @@ impl Judgement {
             self.differ(),
             self.wrong()
         );
+        let Tolerance { z, color, z_bits, color_bits, layers, z_no_bound, color_no_bound, .. } = *tolerance;
         let kinds = [
-            ("depth", tolerance.z, tolerance.z_bits, None, largest_error_lsb[0]),
-            ("colour", tolerance.color, tolerance.color_bits, tolerance.layers, largest_error_lsb[1]),
+            ("depth", z, z_bits, None, z_no_bound, "--depth-lsb"),
+            ("colour", color, color_bits, layers, color_no_bound, "--color-lsb"),
         ];
-        for (name, permitted, bits, layers, largest) in kinds {
+        for ((name, permitted, bits, layers, no_bound, option), largest) in
+            kinds.into_iter().zip(largest_error_lsb)
+        {
             let Some(largest) = largest else { continue };
             let layers = layers
                 .map_or_else(String::new, |most| format!(", at most {most:.4} behind the layers of a pixel"));
             t += &format!(
                 "{name}: tolerance {permitted:.4} LSB of {bits} bits{layers}, largest error where pixels agree {largest:.4}\n"
             );
+            if let Some(why) = no_bound {
+                t += &format!(
+                    "{name}: no bound is proved: {why}; the tolerance takes 1 LSB for such a value; {option} sets another tolerance\n"
+                );
+            }
         }
         for Count { cause, pixels, .. } in self.causes.iter().filter(|count| count.pixels > 0) {
             t += &format!("{pixels} {}\n{}", cause.text(), self.lines_of(*cause));

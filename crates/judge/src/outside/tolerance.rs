@@ -1,8 +1,9 @@
 //! How far another rasterizer may be from the reference.
 
 use crate::compare::gated;
+use crate::verdict::in_words;
 use edgewalk_host::polygon::defects;
-use edgewalk_machine::{Channel, Plan};
+use edgewalk_machine::{Channel, NoBound, Plan};
 use edgewalk_scene::Frame;
 use serde::Serialize;
 
@@ -13,6 +14,12 @@ pub struct Tolerance {
     pub z: f64,
     /// Of a colour, LSB.
     pub color: f64,
+    /// Why no bound of a depth is proved: 1 LSB stands in its place.
+    #[serde(skip_serializing_if = "Option::is_none", serialize_with = "in_words")]
+    pub z_no_bound: Option<NoBound>,
+    /// Why no bound of a colour is proved: 1 LSB stands in the place of that of a fragment's colour, or of its k_t.
+    #[serde(skip_serializing_if = "Option::is_none", serialize_with = "in_words")]
+    pub color_no_bound: Option<NoBound>,
     /// An LSB of depth, in 0 to 1.
     #[serde(skip)]
     pub z_lsb: f64,
@@ -50,9 +57,9 @@ impl Tolerance {
     #[must_use]
     pub fn of(machine: &Plan, frame: &Frame, z: Asked, color: Asked) -> Self {
         let (channels, defects) = (machine.channels(), defects(frame, machine));
+        let budget = |place: usize| machine.proved_budget(&channels[place]);
         let proved = |place: usize| {
-            let budget = machine.proved_budget(&channels[place]);
-            budget.map_or(1.0, |budget| budget.after_rounding().to_f64()) + defects[place]
+            budget(place).map_or(1.0, |budget| budget.after_rounding().to_f64()) + defects[place]
         };
         let is_gated = frame.passes().iter().any(|pass| frame.shadow(pass.state.light).is_some());
         let step = machine.dither_step();
@@ -62,16 +69,34 @@ impl Tolerance {
             let bound = if bits == channel.bits { bound } else { 1.0 };
             (asked.lsb.unwrap_or(bound), 1.0 / ((1u64 << bits) - 1) as f64, bits)
         };
-        let is_asked_for = color.lsb.is_some() || color.bits.is_some_and(|bits| bits != channels[1].bits);
+        let is_asked_for = |asked: Asked, place: usize| {
+            asked.lsb.is_some() || asked.bits.is_some_and(|bits| bits != channels[place].bits)
+        };
+        let no_bound = |asked, place| budget(place).err().filter(|_| !is_asked_for(asked, place));
+        let [z_no_bound, color_no_bound] = [no_bound(z, 0), no_bound(color, 1)];
+        let is_asked_for = is_asked_for(color, 1);
         let (z, z_lsb, z_bits) = of(z, &channels[0], proved(0));
         let (color, color_lsb, color_bits) = of(color, &channels[1], of_color);
-        Tolerance { z, color, z_lsb, color_lsb, z_bits, color_bits, layers: None, step, is_asked_for }
+        Tolerance {
+            z,
+            color,
+            z_no_bound,
+            color_no_bound,
+            z_lsb,
+            color_lsb,
+            z_bits,
+            color_bits,
+            layers: None,
+            step,
+            is_asked_for,
+        }
     }
 
     /// The same formats; every value must be equal.
     #[must_use]
     pub fn exact(self) -> Self {
-        Tolerance { z: 0.0, color: 0.0, is_asked_for: true, ..self }
+        let (z_no_bound, color_no_bound) = (None, None);
+        Tolerance { z: 0.0, color: 0.0, z_no_bound, color_no_bound, is_asked_for: true, ..self }
     }
 
     /// Depths so near to one another may come out in any order, in 0 to 1: each errs by the tolerance, and both are rounded.
