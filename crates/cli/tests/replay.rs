@@ -183,7 +183,7 @@ fn every_unit_appears_where_the_machine_has_it() {
     for (name, text) in files {
         std::fs::write(folder.path().join(name), text).expect("written");
     }
-    let mut checked = 0;
+    let (mut checked, mut colours) = (0, 0);
     for (file, settings, units) in [
         ("passes.tri", &["blend.kind=constant"][..], &["blend"][..]),
         ("half.tri", &["shadow.light=parallel", "shadow.size=4", "shadow.gate=scale"], &["shadow"]),
@@ -223,8 +223,18 @@ fn every_unit_appears_where_the_machine_has_it() {
             shown["store"]["planes"].as_array().expect("planes").iter().any(|plane| plane["title"] == "Lit");
         assert_eq!(light, units.contains(&"shadow"));
         checked += units.len();
+        // A token shows the colour that its pixel gets; others with colours have more bits than a screen.
+        for token in shown["tokens"].as_array().expect("tokens") {
+            let fields = token["fields"].as_array().expect("fields");
+            let place = |name: &str| fields.iter().position(|field| field["name"] == name);
+            let colour = place("addr").is_some_and(|place| place == 0).then(|| ["r", "g", "b"].map(place));
+            let told = colour.filter(|places| places.iter().all(Option::is_some));
+            assert_eq!(token["swatch"], serde_json::json!(told), "{token}");
+            colours += usize::from(told.is_some());
+        }
     }
     assert_eq!(checked, 11);
+    assert!(colours > 0);
 }
 
 #[test]
