@@ -118,7 +118,7 @@ fn compared(
     proof: Option<&Proof>,
 ) -> Comparison {
     let mut light = Lights::drawn(machine, frame, drawn, reach);
-    if let Some(layers) = Layers::of(machine, frame, light.as_mut(), proof) {
+    if let Some(layers) = Layers::of(machine, frame, light.as_mut(), proof, reach) {
         let mut tally = Tally::new(machine, frame);
         let mut counts = Counts::new(machine, drawn.cycles.as_ref());
         let found = blended(&mut counts, &mut tally, &layers, (golden, drawn), light.as_mut());
@@ -263,7 +263,7 @@ fn blended(
     c.covered = golden.coverage.iter().map(|count| u64::from(*count > 0)).sum();
     for i in 0..golden.coverage.len().min(drawn.coverage.len()) {
         c.covers(golden.coverage[i], drawn.coverage[i]);
-        c.compared += u64::from(golden.coverage[i] > 0);
+        c.compared += u64::from(golden.coverage[i] > 0 && !layers.open[i]);
         if layers.open[i] {
             c.order_undecided += 1;
         } else if (golden.id[i], golden.writes[i]) != (drawn.id[i], drawn.writes[i]) {
@@ -339,7 +339,7 @@ impl Comparison {
 
     /// Pass only if all of the screen and all that golden covers was compared, every coverage and order agrees, nothing
     /// wrapped, every cycle has its cause, and every error is within its bound; where none is proved, within 1 LSB (of a floor
-    /// 1 1/2).
+    /// 1 1/2). Of layers the pixels with an open depth test are left out; where no other is covered, nothing was compared.
     pub fn verdict(&self) -> Verdict {
         let color = match (self.blended, self.shaded) {
             (Some(blended), _) => blended.beyond,
@@ -352,8 +352,12 @@ impl Comparison {
             + self.lit.map_or(0, |lit| lit.unexplained)
             + self.shaded.and_then(|shaded| shaded.texels).map_or(0, |texels| texels.unexplained)
             + self.extra.iter().map(ExtraError::beyond).sum::<u64>();
-        let Counts { compared, covered, pixels, screen, .. } = self.counts;
-        Verdict::of(compared, covered, wrong).and(Verdict::of(pixels, screen, wrong))
+        let Counts { compared, covered, pixels, screen, order_undecided, .. } = self.counts;
+        let open = self.blended.map_or(0, |_| order_undecided);
+        if wrong == 0 && open > 0 && open == covered {
+            return Verdict::Open;
+        }
+        Verdict::of(compared, covered.saturating_sub(open), wrong).and(Verdict::of(pixels, screen, wrong))
     }
 
     /// As lines of text.
