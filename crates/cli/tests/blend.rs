@@ -300,3 +300,23 @@ fn open_layers_alone_are_nothing_compared() {
     assert_eq!((code, number("compared") > 0), (Some(0), true), "{c} {error}");
     assert_eq!(number("compared") + number("order_undecided"), number("covered"), "{c}");
 }
+
+/// The bound of one fragment is no bound of layers: none is printed of them, and a sweep calls no machine beyond it.
+#[test]
+fn layers_have_no_bound_of_a_single_fragment() {
+    let folder = tempfile::tempdir().unwrap();
+    let scene = concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs/study/sphere-glass.toml");
+    let small = ["--set", "screen.width=80", "--set", "screen.height=60"];
+    let layers = ["render", scene, "--set", "blend.kind=interpolated", "--out", "r"];
+    let c = &report(folder.path(), &[&layers[..], &small].concat())["comparison"];
+    assert!(c["color_bound_for_input"].is_null() && c["z_bound_for_input"].is_number(), "{c}");
+    assert!(c["color_error"].as_f64() > Some(1.0), "{c}");
+    let points = ["sweep", scene, "--vary", "blend.kind=constant,interpolated", "--out", "s"];
+    let (code, error) = run(folder.path(), &[&points[..], &small].concat());
+    assert_eq!(code, Some(0), "{error}");
+    // A bound that is asked for rules them out.
+    let points = ["sweep", scene, "--vary", "blend.kind=constant,interpolated", "--bound", "1", "--out", "b"];
+    _ = run(folder.path(), &[&points[..], &small].concat());
+    let rows = std::fs::read_to_string(folder.path().join("b/runs.jsonl")).unwrap();
+    assert_eq!(rows.matches("no bound is proved").count(), 2, "{rows}");
+}
