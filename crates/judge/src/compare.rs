@@ -102,13 +102,13 @@ pub fn bounds_for_input(machine: &Plan, frame: &Frame, reach: &Reach) -> [Option
 }
 
 /// Bounds of depth and of colour, LSB: that of the additions plus `beside`, which holds the errors of other units. The colour bound
-/// is none under a light. It is none of layers, and where SHADE makes the colours: each pixel has its own.
+/// of a lit frame has the error of the gate. Of layers, and where SHADE makes the colours, it is none: each pixel has its own.
 fn for_input(machine: &Plan, frame: &Frame, reach: &Reach, beside: [f64; 2]) -> [Option<f64>; 2] {
     let [z, color] =
         [0, 1].map(|place| Some(reach.bound(machine, &machine.channels()[place])? + beside[place]));
     let lit = is_lit(frame);
-    let color = color.filter(|_| !lit && frame.shading.is_none() && !Layers::lie_in(machine, frame, lit));
-    [z, color]
+    let color = color.filter(|_| frame.shading.is_none() && !Layers::lie_in(machine, frame, lit));
+    [z, if lit { color.map(|bound| behind_gate(machine, frame, bound)) } else { color }]
 }
 
 fn compared(
