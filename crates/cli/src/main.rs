@@ -194,6 +194,11 @@ fn exit_code(result: Result<Verdict>, talk: Talk) -> u8 {
     match &result {
         Err(error) => talk.fail(&format!("{error:#}"), code),
         Ok(Verdict::Vacuous) => talk.fail("nothing was compared, so nothing is shown to agree", code),
+        Ok(Verdict::Open) => talk.fail(
+            "no pixel was compared: at each covered pixel a depth test is nearer than the bound of depths; \
+             set triangles farther apart, or give more bits with --set formats.z_bits=",
+            code,
+        ),
         Ok(Verdict::Mismatch) if talk.quiet => {
             talk.fail("mismatch: what was compared differs; without --quiet the report says where", code);
         }

@@ -9,7 +9,7 @@ pub fn exit_code(verdict: Verdict) -> u8 {
     match verdict {
         Verdict::Pass => 0,
         Verdict::Mismatch => 1,
-        Verdict::Vacuous => 2,
+        Verdict::Vacuous | Verdict::Open => 2,
     }
 }
 

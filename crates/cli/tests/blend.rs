@@ -259,3 +259,64 @@ fn uneven_kt_behind_a_polygon_wants_blend_by_pixel() {
     assert_eq!(code, Some(2), "{error}");
     assert!(error.contains("--set blend.kind=interpolated"), "{error}");
 }
+
+/// Renders a file; the exit code, what the report says of the comparison, and standard error.
+fn compared(text: &str, settings: &[&str]) -> (Option<i32>, Value, String) {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("a.tri"), text).unwrap();
+    let mut command = edgewalk(folder.path(), &["render", "a.tri", "--adapt", "--out", "r", "--json"]);
+    settings.iter().for_each(|setting| _ = command.args(["--set", setting]));
+    let output = command.output().unwrap();
+    let report: Value = serde_json::from_slice(&output.stdout).unwrap_or_default();
+    (output.status.code(), report["comparison"].clone(), String::from_utf8(output.stderr).unwrap())
+}
+
+/// Without a bound of the depths no depth test is open: every pixel is compared, and colours far off are told.
+#[test]
+fn layers_without_a_bound_are_compared() {
+    let text = "size 64 48\n\
+        T 1 1 0.2 0.1 0.9 0.2 0  60 9 0.5 0.9 0.1 0.5 0  5 45 0.9 0.5 0.5 0.9 0\ndepth lequal\n\
+        T 2 40 0.3 0.6 0.3 0.2 0  50 2 0.6 0.2 0.7 0.5 0  60 45 0.1 0.8 0.1 0.4 0\n";
+    let coarse =
+        ["color_fraction", "color_vertex", "z_fraction", "z_vertex"].map(|key| format!("formats.{key}=0"));
+    let (code, c, error) = compared(text, &coarse.each_ref().map(String::as_str));
+    assert_eq!((code, &c["order_undecided"]), (Some(1), &0.into()), "{c} {error}");
+    assert!(c["z_bound"].is_null() && c["color_error"].as_f64() > Some(2.0), "{c}");
+    let wrong = c["order_wrong"].as_u64().unwrap();
+    assert_eq!(c["blended"]["pixels"].as_u64().unwrap() + wrong, c["covered"].as_u64().unwrap(), "{c}");
+}
+
+/// A triangle at the cleared depth: every depth test is open, and what is open counts as nothing compared.
+#[test]
+fn open_layers_alone_are_nothing_compared() {
+    let open = "depth lequal\nblend 1\nT 1 1 1 1 0 0 0.5  60 9 1 0 1 0 0.5  5 45 1 0 0 1 0.5\n";
+    let (code, c, error) = compared(&format!("size 64 48\n{open}"), &[]);
+    assert_eq!((code, &c["compared"], &c["order_undecided"]), (Some(2), &0.into(), &c["covered"]), "{c}");
+    assert!(error.contains("no pixel was compared: at each covered pixel a depth test is nearer"), "{error}");
+    // Beside one that is sure the open pixels are left out.
+    let sure = "T 40 30 0.5 1 0 0 0.5  60 30 0.5 0 1 0 0.5  40 45 0.5 0 0 1 0.5\n";
+    let (code, c, error) = compared(&format!("size 64 48\n{open}{sure}"), &[]);
+    let number = |name: &str| c[name].as_u64().unwrap();
+    assert_eq!((code, number("compared") > 0), (Some(0), true), "{c} {error}");
+    assert_eq!(number("compared") + number("order_undecided"), number("covered"), "{c}");
+}
+
+/// The bound of one fragment is no bound of layers: none is printed of them, and a sweep calls no machine beyond it.
+#[test]
+fn layers_have_no_bound_of_a_single_fragment() {
+    let folder = tempfile::tempdir().unwrap();
+    let scene = concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs/study/sphere-glass.toml");
+    let small = ["--set", "screen.width=80", "--set", "screen.height=60"];
+    let layers = ["render", scene, "--set", "blend.kind=interpolated", "--out", "r"];
+    let c = &report(folder.path(), &[&layers[..], &small].concat())["comparison"];
+    assert!(c["color_bound_for_input"].is_null() && c["z_bound_for_input"].is_number(), "{c}");
+    assert!(c["color_error"].as_f64() > Some(1.0), "{c}");
+    let points = ["sweep", scene, "--vary", "blend.kind=constant,interpolated", "--out", "s"];
+    let (code, error) = run(folder.path(), &[&points[..], &small].concat());
+    assert_eq!(code, Some(0), "{error}");
+    // A bound that is asked for rules them out.
+    let points = ["sweep", scene, "--vary", "blend.kind=constant,interpolated", "--bound", "1", "--out", "b"];
+    _ = run(folder.path(), &[&points[..], &small].concat());
+    let rows = std::fs::read_to_string(folder.path().join("b/runs.jsonl")).unwrap();
+    assert_eq!(rows.matches("no bound is proved").count(), 2, "{rows}");
+}

@@ -137,3 +137,33 @@ fn only_the_golden_picture_has_shadows() {
     }
     assert_eq!(std::fs::read_dir(folder.path()).expect("the folder").count(), 0);
 }
+
+/// In shadow a colour may err by an LSB more, as the gate rounds: where nothing is proved of all triangles, the bound of the frame's
+/// own has it.
+#[test]
+fn bound_of_lit_triangles_has_the_gate() {
+    let folder = tempfile::tempdir().expect("a folder");
+    std::fs::write(folder.path().join("a.tri"), LIT).expect("written");
+    let settings =
+        ["shadow.light=parallel", "shadow.size=16", "shadow.gate=scale", "formats.color_fraction=9"];
+    let set = settings.iter().flat_map(|setting| ["--set", *setting]);
+    let arguments: Vec<&str> =
+        ["render", "a.tri", "--adapt", "--json", "--out", "r"].into_iter().chain(set).collect();
+    let output = edgewalk(folder.path(), &arguments);
+    let report: serde_json::Value = serde_json::from_slice(&output.stdout).expect("a report");
+    let c = &report["comparison"];
+    assert_eq!(output.status.code(), Some(0), "{c}");
+    let figure = |name: &str| c[name].as_f64();
+    assert!(c["color_bound"].is_null() && figure("color_error") > Some(1.0), "{c}");
+    assert!(figure("color_error") <= figure("color_bound_for_input"), "{c}");
+    assert!(figure("color_bound_for_input") < Some(2.05), "{c}");
+}
+
+/// A triangle in the shadow of another, of which the light leaves 0.97.
+const LIT: &str = "size 64 48
+shadow 16 0 0.97   0.25 0 0 0  0 0.3333333 0 0  0 0 1 0  0 0 0 1
+L  -20 -20 0  60 -20 0  -20 60 0
+T 6.5571 20.2376 0.461132 0.803304 0.865309 0.592470 0 \
+    50.2069 19.8716 0.982400 0.716794 0.890631 0.164108 0 \
+    44.4545 32.1248 0.756049 0.893807 0.227908 0.119332 0
+";

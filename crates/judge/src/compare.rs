@@ -31,6 +31,7 @@ pub(crate) use layers::Layers;
 pub use layers::{Blended, Errors};
 pub(crate) use lit::gated;
 pub use lit::{Lights, Lit, Seen};
+use lit::{behind_gate, is_lit};
 use order::Orders;
 pub(crate) use order::{Over, all_over};
 use serde::Serialize;
@@ -88,7 +89,7 @@ pub fn compare_shaded(
 ) -> Comparison {
     let c = compared(machine, frame, golden, drawn, reach, proof);
     match reach {
-        Some(reach) => c.reaching(machine, reach),
+        Some(reach) => c.reaching(machine, frame, reach),
         None => c,
     }
 }
@@ -97,16 +98,17 @@ pub fn compare_shaded(
 #[must_use]
 pub fn bounds_for_input(machine: &Plan, frame: &Frame, reach: &Reach) -> [Option<f64>; 2] {
     let Tally { z, color, .. } = Tally::new(machine, frame);
-    let lit = frame.passes().iter().any(|pass| frame.shadow(pass.state.light).is_some());
-    for_input(machine, reach, [z.found().beside, color.found().beside], lit || frame.shading.is_some())
+    for_input(machine, frame, reach, [z.found().beside, color.found().beside])
 }
 
-/// Bounds of depth and of colour, LSB: that of the additions plus `beside`, which holds the errors of other units. With `elsewhere`
-/// each pixel has a colour bound of its own: under a light, or where SHADE makes the colours. The colour bound is then none.
-fn for_input(machine: &Plan, reach: &Reach, beside: [f64; 2], elsewhere: bool) -> [Option<f64>; 2] {
+/// Bounds of depth and of colour, LSB: that of the additions plus `beside`, which holds the errors of other units. The colour bound
+/// of a lit frame has the error of the gate. Of layers, and where SHADE makes the colours, it is none: each pixel has its own.
+fn for_input(machine: &Plan, frame: &Frame, reach: &Reach, beside: [f64; 2]) -> [Option<f64>; 2] {
     let [z, color] =
         [0, 1].map(|place| Some(reach.bound(machine, &machine.channels()[place])? + beside[place]));
-    [z, color.filter(|_| !elsewhere)]
+    let lit = is_lit(frame);
+    let color = color.filter(|_| frame.shading.is_none() && !Layers::lie_in(machine, frame, lit));
+    [z, if lit { color.map(|bound| behind_gate(machine, frame, bound)) } else { color }]
 }
 
 fn compared(
@@ -118,7 +120,7 @@ fn compared(
     proof: Option<&Proof>,
 ) -> Comparison {
     let mut light = Lights::drawn(machine, frame, drawn, reach);
-    if let Some(layers) = Layers::of(machine, frame, light.as_mut(), proof) {
+    if let Some(layers) = Layers::of(machine, frame, light.as_mut(), proof, reach) {
         let mut tally = Tally::new(machine, frame);
         let mut counts = Counts::new(machine, drawn.cycles.as_ref());
         let found = blended(&mut counts, &mut tally, &layers, (golden, drawn), light.as_mut());
@@ -225,25 +227,23 @@ impl<'a> Bands<'a> {
     /// What all lines together come to, without the errors of every pixel.
     #[must_use]
     pub fn found(self) -> Comparison {
-        let (machine, reach) = (self.machine, self.reach);
+        let (machine, frame, reach) = (self.machine, self.frame, self.reach);
         let c = self.ended();
         match reach {
-            Some(reach) => c.reaching(machine, reach),
+            Some(reach) => c.reaching(machine, frame, reach),
             None => c,
         }
     }
 
     fn ended(self) -> Comparison {
-        let Bands { machine, counts, tally, light, allowed, .. } = self;
+        let Bands { machine, frame, counts, tally, light, allowed, .. } = self;
         let mut c = Comparison::of(machine, counts, tally);
         if let Some(allowed) = allowed {
             c.shaded = Some(allowed.found());
             c.errors.color.bounded_elsewhere("each triangle has that of its terms and tables");
         }
         if let Some(light) = light {
-            // The step of DITHER comes behind the gate.
-            let step = machine.dither_step();
-            c.errors.color.bound = c.errors.color.bound.map(|bound| light.color_bound(bound - step) + step);
+            c.errors.color.bound = c.errors.color.bound.map(|bound| behind_gate(machine, frame, bound));
             c.lit = Some(light.found());
         }
         c
@@ -263,7 +263,7 @@ fn blended(
     c.covered = golden.coverage.iter().map(|count| u64::from(*count > 0)).sum();
     for i in 0..golden.coverage.len().min(drawn.coverage.len()) {
         c.covers(golden.coverage[i], drawn.coverage[i]);
-        c.compared += u64::from(golden.coverage[i] > 0);
+        c.compared += u64::from(golden.coverage[i] > 0 && !layers.open[i]);
         if layers.open[i] {
             c.order_undecided += 1;
         } else if (golden.id[i], golden.writes[i]) != (drawn.id[i], drawn.writes[i]) {
@@ -316,12 +316,11 @@ impl Comparison {
     }
 
     /// With what is proved for these triangles: there are no more additions behind any of their pixels.
-    fn reaching(mut self, machine: &Plan, reach: &Reach) -> Self {
+    fn reaching(mut self, machine: &Plan, frame: &Frame, reach: &Reach) -> Self {
         self.errors.additions = Some(reach.steps.total());
         let beside = [self.errors.z.beside, self.errors.color.beside];
-        let elsewhere = self.lit.is_some() || self.shaded.is_some();
         [self.errors.z.bound_for_input, self.errors.color.bound_for_input] =
-            for_input(machine, reach, beside, elsewhere);
+            for_input(machine, frame, reach, beside);
         for (own, channel) in self.extra.iter_mut().zip(extra::channels(machine)) {
             own.bound_for_input = reach.bound(machine, channel);
             own.allowed = own.bound_for_input.unwrap_or(own.allowed);
@@ -339,7 +338,7 @@ impl Comparison {
 
     /// Pass only if all of the screen and all that golden covers was compared, every coverage and order agrees, nothing
     /// wrapped, every cycle has its cause, and every error is within its bound; where none is proved, within 1 LSB (of a floor
-    /// 1 1/2).
+    /// 1 1/2). Of layers the pixels with an open depth test are left out; where no other is covered, nothing was compared.
     pub fn verdict(&self) -> Verdict {
         let color = match (self.blended, self.shaded) {
             (Some(blended), _) => blended.beyond,
@@ -352,8 +351,12 @@ impl Comparison {
             + self.lit.map_or(0, |lit| lit.unexplained)
             + self.shaded.and_then(|shaded| shaded.texels).map_or(0, |texels| texels.unexplained)
             + self.extra.iter().map(ExtraError::beyond).sum::<u64>();
-        let Counts { compared, covered, pixels, screen, .. } = self.counts;
-        Verdict::of(compared, covered, wrong).and(Verdict::of(pixels, screen, wrong))
+        let Counts { compared, covered, pixels, screen, order_undecided, .. } = self.counts;
+        let open = self.blended.map_or(0, |_| order_undecided);
+        if wrong == 0 && open > 0 && open == covered {
+            return Verdict::Open;
+        }
+        Verdict::of(compared, covered.saturating_sub(open), wrong).and(Verdict::of(pixels, screen, wrong))
     }
 
     /// As lines of text.

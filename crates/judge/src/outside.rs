@@ -117,7 +117,7 @@ fn judge(
         permitted.0,
         permitted.1
     );
-    let layers = Layers::of(machine, frame, None, None).filter(|_| !tolerance.is_asked_for);
+    let layers = Layers::of(machine, frame, None, None, None).filter(|_| !tolerance.is_asked_for);
     let largest = layers.as_ref().map(|of| of.bound.iter().copied().fold(0.0, f64::max) + tolerance.step);
     let color_no_bound = layers.as_ref().and_then(|of| of.no_bound).or(tolerance.color_no_bound);
     let shown = Tolerance { layers: largest, color_no_bound, ..*tolerance };

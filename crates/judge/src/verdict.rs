@@ -27,6 +27,8 @@ pub enum Verdict {
     Mismatch,
     /// A check compared nothing at all.
     Vacuous,
+    /// A picture with a depth test at each covered pixel whose depths are too near to decide it: nothing was compared.
+    Open,
 }
 
 impl Verdict {
@@ -66,6 +68,7 @@ impl Verdict {
         match (self, other) {
             (Verdict::Pass, v) | (v, Verdict::Pass) => v,
             (Verdict::Mismatch, _) | (_, Verdict::Mismatch) => Verdict::Mismatch,
+            (Verdict::Open, _) | (_, Verdict::Open) => Verdict::Open,
             _ => Verdict::Vacuous,
         }
     }
@@ -73,7 +76,7 @@ impl Verdict {
 
 #[cfg(test)]
 mod tests {
-    use super::Verdict::{self, Mismatch, Pass, Vacuous};
+    use super::Verdict::{self, Mismatch, Open, Pass, Vacuous};
 
     #[test]
     fn what_was_not_checked_is_no_pass() {
@@ -94,6 +97,8 @@ mod tests {
             (Pass, Vacuous, Vacuous),
             (Pass, Mismatch, Mismatch),
             (Vacuous, Mismatch, Mismatch),
+            (Open, Pass, Open),
+            (Open, Mismatch, Mismatch),
         ];
         for (a, b, both) in worse {
             assert_eq!((a.and(b), b.and(a)), (both, both));

@@ -22,7 +22,7 @@ pub enum Status {
     Pruned,
     /// The machine cannot be built.
     Invalid,
-    /// The machine cannot be drawn, a tool failed, or an error exceeds the proved bound.
+    /// The machine cannot be drawn, a tool failed, an error exceeds the proved bound, or no pixel could be compared.
     Failed,
     /// A tool took too long.
     Timeout,
@@ -118,6 +118,7 @@ pub fn with_figures(
             Verdict::Pass => "pass",
             Verdict::Mismatch => "mismatch",
             Verdict::Vacuous => "vacuous",
+            Verdict::Open => "open",
         });
     }
     row["report"] = serde_json::to_value(found.report)?;
@@ -138,6 +139,11 @@ pub fn with_figures(
             row["status"] = status.name().into();
             row["reason"] = reason.into();
         }
+    }
+    if row["verdict"] == "open" {
+        row["status"] = Status::Failed.name().into();
+        row["reason"] =
+            "no pixel was compared: at each covered pixel a depth test is too near to be sure".into();
     }
     if is_beyond(&row) {
         row["status"] = Status::Failed.name().into();

@@ -10,6 +10,7 @@ use crate::verdict::in_words;
 use edgewalk_golden::Step;
 use edgewalk_host::polygon::defects;
 use edgewalk_host::raster::golden_drawing;
+use edgewalk_host::reach::Reach;
 use edgewalk_host::shade::Proof;
 use edgewalk_machine::{NoBound, Plan};
 use edgewalk_numerics::blend_error_of_golden;
@@ -80,15 +81,13 @@ impl Layers {
         frame: &Frame,
         mut lights: Option<&mut Lights>,
         proof: Option<&Proof>,
+        reach: Option<&Reach>,
     ) -> Option<Layers> {
-        let passes = frame.passes();
-        let shares = lights.is_some() && machine.shadow.transmits();
-        let mixes = passes[0].state.blend != Blending::Off && !machine.dither.drops();
-        if passes.len() == 1 && !mixes && !shares {
+        if !Layers::lie_in(machine, frame, lights.is_some()) {
             return None;
         }
         let pixels = frame.width as usize * frame.height as usize;
-        let (apart, errors) = (apart(machine, frame, None), Errors::of(machine, frame, proof));
+        let (apart, errors) = (apart(machine, frame, reach), Errors::of(machine, frame, proof));
         let mut layers = Layers {
             no_bound: errors.no_bound,
             bound: vec![0.5; pixels], // the cleared colour is rounded
@@ -102,7 +101,7 @@ impl Layers {
         golden_drawing(frame, machine).watched(0..frame.height, |step| match step {
             Step::Tested { at, id, stored, gap } => {
                 let sure = apart.map(|apart| if stored < 0 { apart.cleared } else { apart.triangles });
-                layers.open[at] |= sure.is_none_or(|sure| gap < sure) && !same_depth(frame, id, stored);
+                layers.open[at] |= sure.is_some_and(|sure| gap < sure) && !same_depth(frame, id, stored);
             }
             Step::Stored { at, id, z, own, light, share, kt, back, blend, .. } => {
                 layers.stored[at] += 1;
@@ -121,6 +120,14 @@ impl Layers {
             }
         });
         Some(layers)
+    }
+
+    /// Whether a pixel of the frame may show several fragments, each with a part of its colour. `lit`: under a light that counts.
+    pub fn lie_in(machine: &Plan, frame: &Frame, lit: bool) -> bool {
+        let passes = frame.passes();
+        let shares = lit && machine.shadow.transmits();
+        let mixes = passes[0].state.blend != Blending::Off && !machine.dither.drops();
+        passes.len() > 1 || mixes || shares
     }
 }
 

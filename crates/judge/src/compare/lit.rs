@@ -146,7 +146,7 @@ impl<'a> Lights<'a> {
         drawn: &'a Raster,
         reach: Option<&Reach>,
     ) -> Option<Lights<'a>> {
-        if !frame.passes().iter().any(|pass| frame.shadow(pass.state.light).is_some()) {
+        if !is_lit(frame) {
             return None;
         }
         let words: Vec<&[u32]> = drawn.lights.iter().map(|pass| &pass.words[..]).collect();
@@ -183,11 +183,6 @@ impl<'a> Lights<'a> {
     /// What was found.
     pub fn found(self) -> Lit {
         self.found
-    }
-
-    /// The largest error of a colour, of one that is lit: that of the gate beside it.
-    pub fn color_bound(&self, lit: f64) -> f64 {
-        gated(self.frame, lit)
     }
 
     /// What the light with this number may make of a point (pixels and depth) of the triangle at place `id`.
@@ -282,6 +277,17 @@ impl<'a> Lights<'a> {
 pub(crate) fn gated(frame: &Frame, lit: f64) -> f64 {
     let ambient = frame.shadows.iter().map(|shadow| shadow.ambient).fold(0.0, f64::max);
     lit.max(lit * ambient + 1.0)
+}
+
+/// The largest error of a colour behind the gate, LSB, of one that errs by at most `bound` with DITHER: its step comes behind the gate.
+pub(super) fn behind_gate(machine: &Plan, frame: &Frame, bound: f64) -> f64 {
+    let step = machine.dither_step();
+    gated(frame, bound - step) + step
+}
+
+/// Whether a light of the frame counts.
+pub(super) fn is_lit(frame: &Frame) -> bool {
+    frame.passes().iter().any(|pass| frame.shadow(pass.state.light).is_some())
 }
 
 /// How far the machine's share of a colour of which golden shows this share may be off, LSB of a colour of 1: what is left of the light

@@ -17,7 +17,7 @@ pub fn verdict(args: &Args, machine: &Plan, taken: usize, checks: &[Check]) -> R
         );
     }
     match checks.iter().fold(Verdict::Pass, |all, check| all.and(check.verdict())) {
-        Verdict::Vacuous => Err(anyhow!(reasons(args, machine, taken, checks).join("\n"))),
+        Verdict::Vacuous | Verdict::Open => Err(anyhow!(reasons(args, machine, taken, checks).join("\n"))),
         verdict => Ok(verdict),
     }
 }
