@@ -7,8 +7,8 @@ use serde::Serialize;
 /// new.
 fn version(what: &str) -> [u32; 2] {
     match what {
-        "estimate" | "keys" => [1, 1],
-        "report" | "explain" | "judge" | "energy" | "sweep" => [1, 2],
+        "estimate" => [1, 1],
+        "keys" | "report" | "explain" | "judge" | "energy" | "sweep" => [1, 2],
         "features" => [1, 3],
         _ => [1, 0],
     }

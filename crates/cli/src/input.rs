@@ -140,7 +140,7 @@ impl Source {
     /// Accepts a shading method in which a triangle file can be drawn: its own, or wireframe.
     ///
     /// # Errors
-    /// Another one: both names, and what is permitted.
+    /// The method is another; the error names both, and those permitted.
     fn check_shading(&self, frame: &Frame) -> Result<()> {
         let own = Shading::of(frame);
         let Some(other) = self.shading.filter(|shading| ![own, Shading::Wireframe].contains(shading)) else {

@@ -54,7 +54,7 @@ impl MachineArgs {
     }
 
     /// Refuses --machine and --set, which would count for nothing; `why` says of what.
-    pub fn none(&self, why: &str) -> Result<()> {
+    pub fn refuse(&self, why: &str) -> Result<()> {
         let asked = self.words();
         ensure!(asked.is_empty(), "{}: {why}; leave out --machine and --set", asked.join(" "));
         Ok(())

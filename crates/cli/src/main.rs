@@ -156,7 +156,7 @@ fn run(cli: &Cli, talk: Talk) -> Result<Verdict> {
         Command::Demo(a) => demo::run(a, &cli.machine, talk),
         Command::Render(a) => render::run(a, &cli.machine, talk),
         Command::Gallery(a) => {
-            cli.machine.none("each exhibit has its own machine").and_then(|()| gallery::run(a, talk))
+            cli.machine.refuse("each exhibit has its own machine").and_then(|()| gallery::run(a, talk))
         }
         Command::Explain(a) => explain::run(a, &cli.machine, talk),
         Command::Raster(a) => raster::run(a, &cli.machine, talk),
@@ -174,16 +174,16 @@ fn run(cli: &Cli, talk: Talk) -> Result<Verdict> {
         Command::Synth(a) => synth::run(a, &cli.machine, talk),
         Command::Estimate(a) => estimate::run(a, &cli.machine, talk),
         Command::Calibrate(a) => {
-            cli.machine.none("--machines lists the machines").and_then(|()| calibrate::run(a, talk))
+            cli.machine.refuse("--machines lists the machines").and_then(|()| calibrate::run(a, talk))
         }
         Command::Energy(a) => energy::run(a, &cli.machine, talk),
         Command::Bench(a) => bench::run(a, &cli.machine, talk),
         Command::Config(a) => config::run(a, &cli.machine, talk),
         Command::Completions(a) => {
-            cli.machine.none("no machine is used").and_then(|()| completions::run(a, Cli::command(), talk))
+            cli.machine.refuse("no machine is used").and_then(|()| completions::run(a, Cli::command(), talk))
         }
         Command::Man(a) => {
-            cli.machine.none("no machine is used").and_then(|()| man::run(a, Cli::command(), talk))
+            cli.machine.refuse("no machine is used").and_then(|()| man::run(a, Cli::command(), talk))
         }
     }
 }
@@ -195,8 +195,8 @@ fn exit_code(result: Result<Verdict>, talk: Talk) -> u8 {
         Err(error) => talk.fail(&format!("{error:#}"), code),
         Ok(Verdict::Vacuous) => talk.fail("nothing was compared, so nothing is shown to agree", code),
         Ok(Verdict::Open) => talk.fail(
-            "no pixel was compared: at each covered pixel a depth test is nearer than the bound of depths; \
-             set triangles farther apart, or give more bits with --set formats.z_bits=",
+            "no pixel was compared: at each covered pixel two depths are nearer than their bound; permitted: depths farther \
+             apart; move the triangles, or raise formats.z_bits",
             code,
         ),
         Ok(Verdict::Mismatch) if talk.quiet => {

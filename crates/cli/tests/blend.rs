@@ -130,7 +130,7 @@ fn explain_shows_the_layers_of_a_pixel() {
     }
 }
 
-/// Sums that may wrap prove nothing of a layer: no bound is told, and 1 LSB a fragment is allowed, as without layers.
+/// A layer whose sums may wrap has no bound. A fragment may err by 1 LSB, as without layers.
 #[test]
 fn layers_of_sums_that_may_wrap_have_no_bound() {
     let folder = tempfile::tempdir().unwrap();

@@ -249,10 +249,15 @@ fn a_key_is_explained_by_the_machines_of_its_values() {
 /// pixels are drawn of which nothing is proved.
 #[test]
 fn what_a_machine_cannot_take_is_not_named() {
-    for (setting, proved) in [
-        ("edge.kind=slope", "at most 0.8154 LSB, proved at pixels inside the triangle\n"),
-        ("screen.subpixel_bits=4", "at most 0.8154 LSB, proved\n"),
+    for (setting, proved, holds) in [
+        (
+            "edge.kind=slope",
+            "at most 0.8154 LSB, proved at pixels inside the triangle\n",
+            "pixels inside the triangle",
+        ),
+        ("screen.subpixel_bits=4", "at most 0.8154 LSB, proved\n", "every pixel"),
     ] {
+        assert_eq!(precision(&[setting])["holds"], holds);
         let page = explain(&[setting], false);
         assert_eq!(
             (page.matches(proved).count(), page.matches("bits, triangle (").count()),

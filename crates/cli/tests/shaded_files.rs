@@ -133,7 +133,7 @@ fn errors_that_reach_their_bound_are_not_beyond() {
     assert_eq!((&shaded["pixels"], &shaded["beyond"]), (&78.into(), &0.into()), "{shaded}");
 }
 
-/// SHADE multiplies a colour of which nothing is proved: no bound is told of the product, alone or in layers.
+/// SHADE multiplies a colour without a proved bound. The product has none either, alone or in layers.
 #[test]
 fn colours_of_sums_that_may_wrap_have_no_bound_behind_shade() {
     let folder = tempfile::tempdir().unwrap();

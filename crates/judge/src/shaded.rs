@@ -30,7 +30,7 @@ pub struct Shaded {
     pub bound_at: [usize; 2],
     /// Pixels with a bound above 1 LSB.
     pub bound_above_1: u64,
-    /// The largest error over what is allowed of its triangle.
+    /// The largest quotient of a pixel's error and the error that its triangle is allowed.
     pub of_bound: f64,
     /// Pixels where a light is so near to the horizon that it may be above or below, or which lie next to the edge of its cone.
     pub at_horizon: u64,

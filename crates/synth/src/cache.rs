@@ -2,6 +2,7 @@
 
 use edgewalk_tool::Stop;
 use sha2::{Digest, Sha256};
+use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU64, Ordering};
 
@@ -52,7 +53,10 @@ impl Cache {
         std::fs::create_dir_all(&kept).map_err(|error| said(&error))?;
         for file in keep {
             // Each file appears whole; another run that makes the same step makes the same file.
-            std::fs::rename(folder.join(file), kept.join(file)).map_err(|error| said(&error))?;
+            std::fs::rename(folder.join(file), kept.join(file)).map_err(|error| match error.kind() {
+                ErrorKind::NotFound => Stop::broken(file, &error), // the tool did not write it
+                _ => said(&error),
+            })?;
         }
         let _ = std::fs::remove_dir_all(folder); // what is left of it goes with the scratch folder
         Ok(kept)

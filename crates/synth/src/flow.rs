@@ -226,5 +226,5 @@ impl Job<'_> {
 }
 
 fn text(path: &Path) -> Result<String, Stop> {
-    std::fs::read_to_string(path).map_err(|error| Stop::file(path, &error))
+    std::fs::read_to_string(path).map_err(|error| Stop::broken(&path.display().to_string(), &error))
 }

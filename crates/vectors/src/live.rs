@@ -9,7 +9,7 @@
 use crate::capture::patience;
 use edgewalk_lockstep::device::ModelDevice;
 use edgewalk_lockstep::{
-    Direction, Interface, Link, PortValues, Rig, Setting, StatusPort, Token, Unit, UnknownConstant, model,
+    Direction, Interface, PortValues, Rig, Setting, StatusPort, Token, Unit, UnknownConstant, model,
     status_ports,
 };
 use edgewalk_machine::{DrawState, Plan};
@@ -97,19 +97,7 @@ impl Live {
         })
     }
 
-    /// The unit's ports.
-    #[must_use]
-    pub fn interface(&self) -> &Interface {
-        &self.interface
-    }
-
-    /// The link whose tokens are given: the first in.
-    #[must_use]
-    pub fn takes(&self) -> &Link {
-        &self.interface.links[0]
-    }
-
-    /// Gives the unit a token of [`Live::takes`], as it stood at the ports: of a link that is sent word by word one word.
+    /// Gives the unit a token of the first link of its interface, as it stood at the ports: of a link that is sent word by word one word.
     pub fn give(&mut self, token: &[u128]) {
         let link = &self.interface.links[0];
         let mut whole = token.to_vec();

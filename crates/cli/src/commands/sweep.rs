@@ -210,7 +210,7 @@ const DEFINITION: &str = "sweep.json";
 /// Runs the command.
 pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
     if matches!(args.part, Some(Part::Run(_) | Part::Merge(_) | Part::Why(_))) {
-        machine.none("sweep.json has the machine")?;
+        machine.refuse("sweep.json has the machine")?;
     }
     match &args.part {
         Some(Part::Plan(plan)) => {

@@ -50,7 +50,7 @@ pub struct Blended {
     /// The largest error that is allowed at one of them, LSB: its bound, and where none is proved that with 1 LSB a fragment.
     #[serde(skip)]
     pub allowed: f64,
-    /// The largest error over what is allowed at its pixel.
+    /// The largest quotient of a pixel's error and the error that is allowed there.
     pub of_bound: f64,
     /// Pixels beyond.
     pub beyond: u64,

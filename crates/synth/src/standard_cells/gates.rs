@@ -245,7 +245,7 @@ fn named(modules: &BTreeMap<String, Module>, top: &str, library: &Library, path:
 }
 
 fn text(path: &Path) -> Result<String, Stop> {
-    std::fs::read_to_string(path).map_err(|error| Stop::file(path, &error))
+    std::fs::read_to_string(path).map_err(|error| Stop::broken(&path.display().to_string(), &error))
 }
 
 fn first_line(printed: &str) -> String {

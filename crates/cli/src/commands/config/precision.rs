@@ -11,12 +11,14 @@ use std::fmt::Write as _;
 pub struct Precision {
     /// Where the additions behind a fragment come from, and how many there are at most.
     additions: String,
-    /// For which pixels bounds hold, behind `proved`: a slope edge also draws pixels outside the triangle.
-    #[serde(skip)]
+    /// The pixels for which bounds hold: a slope edge also draws pixels outside the triangle.
     holds: &'static str,
     z: Proof,
     color: Proof,
 }
+
+/// Where the walk of the edges is exact.
+const EVERY_PIXEL: &str = "every pixel";
 
 /// What is proved of a channel.
 #[derive(Serialize)]
@@ -42,8 +44,8 @@ impl Precision {
         Precision {
             additions: machine.screen().to_string(),
             holds: match machine.edge_kind {
-                EdgeKind::Exact => "",
-                EdgeKind::Slope => " at pixels inside the triangle",
+                EdgeKind::Exact => EVERY_PIXEL,
+                EdgeKind::Slope => "pixels inside the triangle",
             },
             z: Proof::of(machine, 0, "z"),
             color: Proof::of(machine, 1, "color"),
@@ -58,11 +60,15 @@ impl Precision {
     /// As lines of text. Writing to a string cannot fail.
     pub fn text(&self) -> String {
         let mut t = String::new();
+        let holds = match self.holds {
+            EVERY_PIXEL => String::new(),
+            some => format!(" at {some}"),
+        };
         _ = writeln!(t, "    additions to a pixel   {}", self.additions);
         for (name, proof) in [("z", &self.z), ("colour", &self.color)] {
             _ = match (proof.bound, &proof.no_bound) {
                 (Some(bound), _) => {
-                    writeln!(t, "    {name:<6} error           at most {bound:.4} LSB, proved{}", self.holds)
+                    writeln!(t, "    {name:<6} error           at most {bound:.4} LSB, proved{holds}")
                 }
                 (None, why) => {
                     writeln!(
