@@ -68,7 +68,7 @@ const READ: &str = r##"
 
 /// The page in headless Chromium with its network cut; what it looks like in the end.
 pub(super) fn opened(page: &Path, home: &Path, arguments: &[&str]) -> String {
-    let output = Command::new("chromium")
+    let output = Command::new("chromium-headless-shell")
         .args([
             "--headless",
             "--no-sandbox",
@@ -81,7 +81,7 @@ pub(super) fn opened(page: &Path, home: &Path, arguments: &[&str]) -> String {
         .args(arguments)
         .arg(format!("file://{}", page.display()))
         .output()
-        .expect("chromium is installed by tests/run: apt-get install chromium");
+        .expect("tests/run installs it: apt-get install chromium-headless-shell");
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
     String::from_utf8(output.stdout).unwrap()
 }

@@ -35,18 +35,26 @@ pub fn shown_text(browser: &mut Browser, case: &Case, html: &str) -> Checked {
     let mut order: Vec<(&u32, &View)> = seen.iter().collect();
     // Forwards and backwards.
     order.sort_by_key(|(cycle, _)| **cycle % 7);
+    // In one go: the browser would draw each cycle, which takes longest. Words change to hex and back every eight cycles.
+    let cycles: Vec<&u32> = order.iter().map(|(cycle, _)| *cycle).collect();
+    let pages = browser.eval(&format!(
+        "{cycles:?}.map((cycle, place) => {{
+          const hex = (place >> 3) % 2 === 1;
+          if (app.hex !== hex) app.setHex(hex);
+          app.go(cycle);
+          return {READ}; }})"
+    ));
     let mut compared = 0;
     for (place, (cycle, view)) in order.into_iter().enumerate() {
-        let hex = place % 2 == 1;
-        let page = browser.eval(&format!("app.hex !== {hex} && app.setHex({hex}); app.go({cycle}); {READ}"));
-        compared += registers(&page, view, hex).map_err(|why| format!("cycle {cycle}: {why}"))?;
+        let (page, hex) = (&pages[place], (place >> 3) % 2 == 1);
+        compared += registers(page, view, hex).map_err(|why| format!("cycle {cycle}: {why}"))?;
         let says: Vec<&str> = list(&page["says"]).filter(|text| *text != "Nothing happens.").collect();
         let expected = sentences(view, hex);
         if says != expected {
             return Err(format!("cycle {cycle}: says {says:?}, not {expected:?}"));
         }
         compared += expected.len() as u64;
-        compared += links(&page, view).map_err(|why| format!("cycle {cycle}: {why}"))?;
+        compared += links(page, view).map_err(|why| format!("cycle {cycle}: {why}"))?;
     }
     Ok(compared)
 }
@@ -134,16 +142,22 @@ pub fn pictures(browser: &mut Browser, case: &Case, html: &str) -> Checked {
     let (_folder, path) = file(html);
     browser.open(&path, "");
     let cycles = browser.eval("app.doc.cycles").as_u64().unwrap_or_default();
-    let stops: Vec<u64> = (1..=10).map(|k| k * (cycles - 1) / 10).collect();
-    let look = "app.planes.views.map((v) => v.canvas.toDataURL()).join() + document.getElementById('cards').textContent";
-    let mut there = Vec::new();
-    for stop in &stops {
-        there.push(browser.eval(&format!("app.go({stop}); {look}")));
-    }
+    let mut stops: Vec<u64> = (1..=10).map(|k| k * (cycles - 1) / 10).collect();
+    // In one go: the browser would draw each cycle, which takes longest.
+    let look = |stops: &[u64]| {
+        format!(
+            "{stops:?}.map((stop) => {{
+              app.go(stop);
+              return app.planes.views.map((v) => v.canvas.toDataURL()).join() + document.getElementById('cards').textContent; }})"
+        )
+    };
+    let there = browser.eval(&look(&stops));
     let frame = case.frame();
     let mut compared = picture(browser, case, &frame)?;
-    for (stop, there) in stops.iter().zip(&there).rev() {
-        if browser.eval(&format!("app.go({stop}); {look}")) != *there {
+    stops.reverse();
+    let back = browser.eval(&look(&stops));
+    for (place, stop) in stops.iter().enumerate() {
+        if !back[place].is_string() || back[place] != there[stops.len() - 1 - place] {
             return Err(format!("cycle {stop} looks otherwise on the way back"));
         }
         compared += 1;

@@ -33,7 +33,7 @@ impl Chromium {
 
     fn start() -> Chromium {
         let profile = tempfile::tempdir().expect("a folder");
-        let child = Command::new("chromium")
+        let child = Command::new("chromium-headless-shell")
             .args([
                 "--headless",
                 "--no-sandbox",
@@ -48,7 +48,7 @@ impl Chromium {
             .stderr(Stdio::piped())
             .stdout(Stdio::null())
             .spawn();
-        let mut child = child.expect("chromium is needed: tests/run installs it (apt-get install chromium)");
+        let mut child = child.expect("tests/run installs it: apt-get install chromium-headless-shell");
         let lines = BufReader::new(child.stderr.take().expect("piped")).lines();
         let mut lines = lines.map_while(Result::ok);
         let address = lines.find_map(|line| line.strip_prefix("DevTools listening on ").map(str::to_owned));
