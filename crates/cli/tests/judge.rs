@@ -362,10 +362,15 @@ fn arrays_that_cannot_be_are_refused() {
     std::fs::write(at("in.tri"), text(&triangles(1))).unwrap();
     let values = |count: usize| vec![0u8; count * 8];
     let pixels = 64 * 48;
-    for folder in ["short", "turned", "shape", "type", "cut", "header", "many", "empty", "int", "nonsense"] {
+    for folder in [
+        "short", "turned", "shape", "type", "cut", "header", "many", "empty", "int", "nonsense", "huge",
+        "hex",
+    ] {
         std::fs::create_dir(at(folder)).unwrap();
     }
     npy(&at("shape/z.npy"), "<f8", "(48, 65)", &values(48 * 65));
+    npy(&at("huge/z.npy"), "<f8", "(4294967296, 4294967296, 0)", &[]);
+    npy(&at("hex/z.npy"), "<f8", "(0x100000000, 0x100000000)", &[]);
     npy(&at("turned/rgb.npy"), "<f8", "(3, 48, 64)", &values(3 * pixels));
     npy(&at("type/z.npy"), "<c16", "(48, 64)", &values(2 * pixels));
     npy(&at("cut/z.npy"), "<f8", "(48, 64)", &values(pixels - 1));
@@ -384,7 +389,9 @@ fn arrays_that_cannot_be_are_refused() {
     std::fs::write(at("not.png"), b"nothing").unwrap();
     image::RgbImage::new(64, 47).save(at("small.png")).unwrap();
     image::RgbImage::new(64, 48).save(at("mine.png")).unwrap();
-    let cases: [(&[&str], &str); 21] = [
+    let cases: [(&[&str], &str); 23] = [
+        (&["huge"], "more values than 64 bits count; permitted: 64 columns, 48 lines"),
+        (&["hex"], "a length that is no decimal number"),
         (&["shape"], "its shape is [48, 65]; permitted: [48, 64], lines from the top, columns"),
         (&["turned"], "its shape is [3, 48, 64]; permitted: [48, 64, 3]"),
         (&["type"], "permitted: float32, float64, or unsigned integers in LSB"),
