@@ -25,12 +25,7 @@ fn need(key: &'static str, value: impl ToString, why: String) -> Need {
 /// Every key of the machine that the frame asks another value for. What no key can give is not among them.
 #[must_use]
 pub fn needs(frame: &Frame, machine: &Plan) -> Vec<Need> {
-    let mut needs = Vec::new();
-    let own = extra::channels(machine).len();
-    if frame.extra != own {
-        let why = format!("extra {}: the machine has channels.extra = {own}", frame.extra);
-        needs.push(need("channels.extra", frame.extra, why));
-    }
+    let mut needs = Vec::from_iter(of_golden(frame, machine));
     if !frame.lines.is_empty() && !machine.polygon.has_lines() {
         let why = "lines: the machine's port takes triangles only (polygon.lines = no)".to_owned();
         needs.push(need("polygon.lines", "yes", why));
@@ -52,17 +47,33 @@ pub fn needs(frame: &Frame, machine: &Plan) -> Vec<Need> {
 }
 
 /// Accepts a frame whose every need the machine meets.
+/// The need of a frame that golden draws: it has the channels of the machine, and draws whatever else the machine lacks.
+#[must_use]
+pub fn of_golden(frame: &Frame, machine: &Plan) -> Option<Need> {
+    let own = extra::channels(machine).len();
+    (frame.extra != own).then(|| {
+        let why = format!("extra {}: the machine has channels.extra = {own}", frame.extra);
+        need("channels.extra", frame.extra, why)
+    })
+}
+
 ///
 /// # Errors
 /// All that it does not meet, with the settings that do.
 pub fn check(frame: &Frame, machine: &Plan) -> Result<()> {
-    let needs = needs(frame, machine);
+    met(&needs(frame, machine))
+}
+
+/// Accepts a machine that lacks nothing of this.
+///
+/// # Errors
+/// All that it lacks, with the settings that give it.
+pub fn met(needs: &[Need]) -> Result<()> {
     if needs.is_empty() {
         return Ok(());
     }
     let whys: Vec<&str> = needs.iter().map(|need| need.why.as_str()).filter(|why| !why.is_empty()).collect();
     let settings = needs.iter().map(|need| (need.key.to_owned(), need.value.clone())).collect();
-    // Golden has the channels of the machine, too.
     let by_golden = needs.iter().any(|need| need.key != "channels.extra");
     Err(NotMet { why: whys.join("; "), settings, by_golden }.into())
 }
