@@ -3,7 +3,7 @@
 use crate::extra;
 use anyhow::Result;
 use edgewalk_machine::keys::KEYS;
-use edgewalk_machine::{Gate, Plan, ShadeColour, ShadeLight};
+use edgewalk_machine::{Gate, OwnPass, Plan, ShadeColour, ShadeLight};
 use edgewalk_scene::{Blending, Frame, Light, PixelMethod, PixelShading, ShadeMode, Shadow, Triangle};
 use std::fmt;
 
@@ -176,6 +176,13 @@ fn shadows(first: &Shadow, all: &[Shadow], machine: &Plan, needs: &mut Vec<Need>
         needs.push(need("shadow.transmits", "yes", why));
     }
     if let Some(shadow) = all.iter().find(|shadow| shadow.ambient > 0.0 && own.gate == Gate::And) {
+        if own.own_pass == OwnPass::Yes
+            && !machine.blend.is_there()
+            && needs.iter().all(|need| need.key != "blend.kind")
+        {
+            let why = format!("L with kt = {}: BLEND draws such a map, and the machine has none", pane.kt);
+            needs.push(need("blend.kind", "constant", why));
+        }
         let why = format!("shadow AMBIENT = {}: shadow.gate = and leaves nothing in shadow", shadow.ambient);
         needs.push(need("shadow.gate", "scale", why));
     }
