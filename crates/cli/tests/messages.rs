@@ -4,8 +4,13 @@
 use crate::support::{TRIANGLE, edgewalk, names, run};
 
 /// Files of the cases, by name.
-const FILES: [(&str, &str); 12] = [
+const FILES: [(&str, &str); 13] = [
     ("t.tri", TRIANGLE),
+    (
+        "far.tri",
+        "size 8 8\nmode phong\nview 0 0 1\nsun 0 0 1 0.5\nmaterial 0.1 0.5 0 1\n\
+         T 1 1 0.5 1 1 1 0  9000 1 0.5 1 1 1 0  1 5 0.5 1 1 1 0\nN 0 0 1 0 0 1 0 0 1\n",
+    ),
     ("lines.toml", "[polygon]\nlines = true\n"),
     ("list.toml", "[screen]\nwidth = [32]\n"),
     ("far.toml", "[screen]\nwidth = 0x8000\n"),
@@ -73,6 +78,15 @@ const REFUSED: &[(&[&str], &str)] = &[
     (
         &["render", "crease.toml"],
         "crease.toml:2: normals: crease: `\"group\"`: permitted: \"groups\", or a number from 0 to 180\n",
+    ),
+    // A vertex by the number that it has in the file.
+    (
+        &["render", "far.tri", "--adapt"],
+        "far.tri: triangle 0 (counted from 0), vertex 2 (from 1): x = 9000 lies outside the guard band",
+    ),
+    (
+        &["bench", "far.tri", "--adapt", "--engine", "fast"],
+        "far.tri: triangle 0 (counted from 0), vertex 2 (from 1): x = 9000 lies outside the guard band",
     ),
     // Machines by name.
     (

@@ -1,6 +1,7 @@
 //! What a frame asks of a machine: every key that must have another value, all of them at once.
 
 use crate::extra;
+use crate::vertices::named;
 use anyhow::Result;
 use edgewalk_machine::keys::KEYS;
 use edgewalk_machine::{Gate, OwnPass, Plan, ShadeColour, ShadeLight};
@@ -46,7 +47,6 @@ pub fn needs(frame: &Frame, machine: &Plan) -> Vec<Need> {
     needs
 }
 
-/// Accepts a frame whose every need the machine meets.
 /// The need of a frame that golden draws: it has the channels of the machine, and draws whatever else the machine lacks.
 #[must_use]
 pub fn of_golden(frame: &Frame, machine: &Plan) -> Option<Need> {
@@ -57,6 +57,7 @@ pub fn of_golden(frame: &Frame, machine: &Plan) -> Option<Need> {
     })
 }
 
+/// Accepts a frame whose every need the machine meets.
 ///
 /// # Errors
 /// All that it does not meet, with the settings that do.
@@ -121,7 +122,8 @@ fn blending(frame: &Frame, machine: &Plan, needs: &mut Vec<Need>) {
     let mixed = |place: usize| frame.drawn() > frame.triangles.len() || in_mix(place);
     let uneven = |(place, Triangle(v)): (usize, &Triangle)| {
         let corner = (1..3).find(|corner| v[*corner].kt != v[0].kt).filter(|_| mixed(place))?;
-        Some(format!("triangle {place}, vertex {corner}: kt = {} after {}", v[corner].kt, v[0].kt))
+        let corner_of = named("triangle", place, Some(("vertex", corner)));
+        Some(format!("{corner_of}: kt = {} after {}", v[corner].kt, v[0].kt))
     };
     let of_polygons = || {
         let mut kts = frame.polygons.iter().map(|polygon| polygon.contours.iter().flatten().map(|v| v.kt));
@@ -174,8 +176,6 @@ fn shadows(first: &Shadow, all: &[Shadow], machine: &Plan, needs: &mut Vec<Need>
     if let Some(pane) = all.iter().flat_map(|shadow| &shadow.panes).next().filter(|_| !own.transmits()) {
         let why = format!("L with kt = {}: the machine's map says lit or not", pane.kt);
         needs.push(need("shadow.transmits", "yes", why));
-    }
-    if let Some(shadow) = all.iter().find(|shadow| shadow.ambient > 0.0 && own.gate == Gate::And) {
         if own.own_pass == OwnPass::Yes
             && !machine.blend.is_there()
             && needs.iter().all(|need| need.key != "blend.kind")
@@ -183,6 +183,8 @@ fn shadows(first: &Shadow, all: &[Shadow], machine: &Plan, needs: &mut Vec<Need>
             let why = format!("L with kt = {}: BLEND draws such a map, and the machine has none", pane.kt);
             needs.push(need("blend.kind", "constant", why));
         }
+    }
+    if let Some(shadow) = all.iter().find(|shadow| shadow.ambient > 0.0 && own.gate == Gate::And) {
         let why = format!("shadow AMBIENT = {}: shadow.gate = and leaves nothing in shadow", shadow.ambient);
         needs.push(need("shadow.gate", "scale", why));
     }
@@ -227,7 +229,8 @@ fn shaded(frame: &Frame, shading: &PixelShading, machine: &Plan, needs: &mut Vec
     if own.colour == ShadeColour::Tables
         && let Some(why) = match uneven {
             Some(triangle) => Some(format!(
-                "triangle {triangle}: its colour is not the same at all vertices, and the machine's tables hold one"
+                "{}: its colour is not the same at all vertices, and the machine's tables hold one",
+                named("triangle", triangle, None)
             )),
             None if textured => {
                 Some("texture: the machine's tables hold the colour that a texel multiplies".to_owned())

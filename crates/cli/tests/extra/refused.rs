@@ -72,7 +72,9 @@ fn a_value_that_the_channel_does_not_hold_is_named() {
             let arguments = ["raster", "in.tri", "--engine", engine, "--out", "OUT", "--set"];
             let (code, error) =
                 run(folder.path(), &[&arguments[..], &["channels.extra=1", "--set", &set]].concat());
-            let message = format!("error: in.tri: triangle 1, vertex 2: e0 = {value} lies outside {range}\n");
+            let message = format!(
+                "error: in.tri: triangle 1 (counted from 0), vertex 3 (from 1): e0 = {value} lies outside {range}\n"
+            );
             assert_eq!((code, error), (Some(2), message));
             refused += 1;
         }
