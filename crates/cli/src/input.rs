@@ -117,6 +117,11 @@ impl Source {
         self.shading.unwrap_or(Shading::Gouraud)
     }
 
+    /// A frame of the input as the machine's port takes it; errors name the input.
+    pub fn to_port(&self, frame: &Frame, machine: &Plan) -> Result<PortFrame> {
+        to_port(frame, machine).with_context(|| self.input.clone())
+    }
+
     /// Whether the input is a triangle file, which has no surface to shade.
     pub fn is_triangle_file(&self) -> bool {
         InputKind::is_triangles(&self.input)

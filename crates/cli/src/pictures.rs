@@ -59,7 +59,7 @@ pub fn pictures(
     let (port, mut drawn, proof, lights) = match summed {
         Some(Added { drawn, port, proof, lights }) => (port, Some(drawn), proof, lights),
         None => {
-            let port = to_port(frame, machine)?;
+            let port = to_port(frame, machine).with_context(|| name.to_owned())?;
             let proof = port.shade.as_ref().map(|feed| feed.proof.clone());
             (port, None, proof, Vec::new())
         }

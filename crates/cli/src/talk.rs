@@ -23,7 +23,7 @@ impl Talk {
         match self {
             Talk { json: true, .. } => print(&json()?),
             Talk { quiet: true, .. } => Ok(()),
-            _ => print(&text()),
+            _ => print(&plain(&text())),
         }
     }
 
@@ -33,15 +33,28 @@ impl Talk {
         let text = || format!("error: {why}");
         let json =
             || line("error", json!({ "error": why, "exit_code": exit_code })).unwrap_or_else(|_| text());
-        _ = writeln!(io::stderr(), "{}", if self.json { json() } else { text() });
+        _ = writeln!(io::stderr(), "{}", if self.json { json() } else { plain(&text()) });
     }
 
     /// Says on standard error what may not be as wanted, though nothing is wrong.
     pub fn warn(self, what: &str) {
         let text = || format!("warning: {what}");
         let json = || line("warning", json!({ "warning": what })).unwrap_or_else(|_| text());
-        _ = writeln!(io::stderr(), "{}", if self.json { json() } else { text() });
+        _ = writeln!(io::stderr(), "{}", if self.json { json() } else { plain(&text()) });
     }
+}
+
+/// A text of which no character steers the terminal: control characters, which a file of the user may hold, become escapes.
+fn plain(text: &str) -> String {
+    let mut plain = String::with_capacity(text.len());
+    for letter in text.chars() {
+        if letter.is_control() && !matches!(letter, '\n' | '\t') {
+            plain.extend(letter.escape_default());
+        } else {
+            plain.push(letter);
+        }
+    }
+    plain
 }
 
 /// Writes lines to standard output; the last one is ended if it is not.

@@ -179,3 +179,34 @@ fn malformed_arguments() {
     }
     println!("checked {0} / {0} command lines", ARGUMENTS.len());
 }
+
+/// Cutting a face takes time that grows with the square of its corners.
+#[test]
+fn faces_of_too_many_corners() {
+    let corners = |count: usize, first: usize, between: &str| {
+        (first..first + count).map(|corner| corner.to_string()).collect::<Vec<_>>().join(between)
+    };
+    let points = |before: &str, between: &str, behind: &str| -> String {
+        (0..16385).map(|i| format!("{before}{}{between}{}{between}{i}{behind}", i % 7, i % 5)).collect()
+    };
+    let obj = format!("{}f {}\n", points("v ", " ", "\n"), corners(16385, 1, " "));
+    let scene = format!(
+        "[[object]]\npositions = [{}]\nfaces = [[{}]]\n",
+        points("[", ", ", "], "),
+        corners(16385, 0, ", ")
+    );
+    let folder = tempfile::tempdir().expect("a folder");
+    for (name, text, said) in [
+        ("a.obj", obj, "a.obj:16386: f: `16385 corners`: permitted: 3 to 16384 corners; cut"),
+        (
+            "a.toml",
+            scene,
+            "a.toml:3: object 1: faces: `16385 places`: permitted: 3 to 16384 places a face; cut",
+        ),
+    ] {
+        std::fs::write(folder.path().join(name), text).expect("written");
+        let output = edgewalk(folder.path(), &["triangles", name, "--out", "o.tri"]);
+        let error = String::from_utf8_lossy(&output.stderr);
+        assert!(output.status.code() == Some(2) && error.contains(said), "{error}");
+    }
+}

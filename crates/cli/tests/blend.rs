@@ -196,7 +196,7 @@ fn what_the_machine_cannot_do_is_said() {
             &file("blend 1"),
             "raster",
             &constant,
-            &["triangle 0, vertex 1", "kt = 0.25", "blend.kind=interpolated"],
+            &["triangle 0 (counted from 0), vertex 2 (from 1)", "kt = 0.25", "blend.kind=interpolated"],
         ),
         (&file("blend 2"), "raster", &constant, &["blend: `2`", "0 1 add"]),
         (&file("blend 1").replace("0.25", "1.25"), "raster", &constant, &["vertex 2 kt", "`1.25`"]),

@@ -362,10 +362,15 @@ fn arrays_that_cannot_be_are_refused() {
     std::fs::write(at("in.tri"), text(&triangles(1))).unwrap();
     let values = |count: usize| vec![0u8; count * 8];
     let pixels = 64 * 48;
-    for folder in ["short", "turned", "shape", "type", "cut", "header", "many", "empty", "int", "nonsense"] {
+    for folder in [
+        "short", "turned", "shape", "type", "cut", "header", "many", "empty", "int", "nonsense", "huge",
+        "hex",
+    ] {
         std::fs::create_dir(at(folder)).unwrap();
     }
     npy(&at("shape/z.npy"), "<f8", "(48, 65)", &values(48 * 65));
+    npy(&at("huge/z.npy"), "<f8", "(4294967296, 4294967296, 0)", &[]);
+    npy(&at("hex/z.npy"), "<f8", "(0x100000000, 0x100000000)", &[]);
     npy(&at("turned/rgb.npy"), "<f8", "(3, 48, 64)", &values(3 * pixels));
     npy(&at("type/z.npy"), "<c16", "(48, 64)", &values(2 * pixels));
     npy(&at("cut/z.npy"), "<f8", "(48, 64)", &values(pixels - 1));
@@ -384,7 +389,9 @@ fn arrays_that_cannot_be_are_refused() {
     std::fs::write(at("not.png"), b"nothing").unwrap();
     image::RgbImage::new(64, 47).save(at("small.png")).unwrap();
     image::RgbImage::new(64, 48).save(at("mine.png")).unwrap();
-    let cases: [(&[&str], &str); 21] = [
+    let cases: [(&[&str], &str); 23] = [
+        (&["huge"], "more values than 64 bits count; permitted: 64 columns, 48 lines"),
+        (&["hex"], "a length that is no decimal number"),
         (&["shape"], "its shape is [48, 65]; permitted: [48, 64], lines from the top, columns"),
         (&["turned"], "its shape is [3, 48, 64]; permitted: [48, 64, 3]"),
         (&["type"], "permitted: float32, float64, or unsigned integers in LSB"),
@@ -418,5 +425,37 @@ fn arrays_that_cannot_be_are_refused() {
         let (code, error) = ended(&output);
         assert_eq!(code, Some(2), "{arguments:?}: {error}");
         assert!(error.contains(message), "{arguments:?}: {error}");
+    }
+}
+
+/// Without colours the arrays hold no triangle, and depths tell which one decides.
+#[test]
+fn depths_alone_name_cause_and_triangle() {
+    let folder = tempfile::tempdir().unwrap();
+    let far = "T 1 1 .5 1 0 0 0  7 1 .5 1 0 0 0  1 7 .5 0 1 0 0\n";
+    let file = format!("size 8 8\ncolour_write 0\n{far}{}", far.replace(" .5 ", " .25 "));
+    std::fs::write(folder.path().join("a.tri"), file).unwrap();
+    let drawn = ["raster", "a.tri", "--engine", "golden", "--out", "p"];
+    assert!(edgewalk(folder.path(), &drawn).status().unwrap().success());
+    let bytes = std::fs::read(folder.path().join("p/z.npy")).unwrap();
+    let first = bytes.len() - 8 * 64;
+    for (pixel, depth, line) in [
+        ((2, 2), 0.6, "  (2, 2) depth beyond the tolerance: triangle 1: 5872025.2500 LSB off\n"),
+        ((2, 2), 0.5, "  (2, 2) wrong winner: triangle 0 for triangle 1; depth 4194303.7500 LSB off\n"),
+        (
+            (2, 2),
+            1.0,
+            "  (2, 2) missing: triangle 1: the centre lies 1.5000 px inside of the edge of vertices",
+        ),
+        ((7, 7), 0.5, "  (7, 7) extra: triangle "),
+    ] {
+        let at = first + 8 * (pixel.1 * 8 + pixel.0);
+        let mut wrong = bytes.clone();
+        wrong[at..at + 8].copy_from_slice(&f64::to_le_bytes(depth));
+        std::fs::write(folder.path().join("z.npy"), wrong).unwrap();
+        let output = edgewalk(folder.path(), &["judge", "a.tri", "z.npy", "--adapt"]).output().unwrap();
+        let text = String::from_utf8_lossy(&output.stdout);
+        assert_eq!(output.status.code(), Some(1), "{depth}: {text}");
+        assert!(text.contains(line), "{depth}: {text}");
     }
 }

@@ -157,7 +157,11 @@ fn what_the_machine_cannot_do_is_said() {
         (
             HALF.replacen("   1 0 0 0", "   9 0 0 0", 1),
             &fitting,
-            &["triangle 0, vertex 1", "lx = 72", "-15 to 15"],
+            &[
+                "a.tri: triangle 0 (counted from 0), vertex 2 (from 1)",
+                "lx = 72",
+                "-15 to 15 under light 1; give",
+            ],
         ),
         (HALF.replacen("L  0 0", "L  -9000 0", 1), &fitting, &["triangle 0 of the map", "guard"]),
         (

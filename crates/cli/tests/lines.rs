@@ -121,7 +121,7 @@ fn malformed_lines_name_place_and_remedy() {
         ),
         (
             format!("size 9 9\nS {end} 99999 1 0.5 1 1 1 0"),
-            &["line 0, end 1", "outside the guard band", "clip it"],
+            &["a.tri: line 0 (counted from 0), end 2 (from 1)", "outside the guard band", "clip it"],
         ),
     ] {
         let folder = folder(&file);

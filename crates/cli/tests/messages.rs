@@ -4,8 +4,13 @@
 use crate::support::{TRIANGLE, edgewalk, names, run};
 
 /// Files of the cases, by name.
-const FILES: [(&str, &str); 12] = [
+const FILES: [(&str, &str); 13] = [
     ("t.tri", TRIANGLE),
+    (
+        "far.tri",
+        "size 8 8\nmode phong\nview 0 0 1\nsun 0 0 1 0.5\nmaterial 0.1 0.5 0 1\n\
+         T 1 1 0.5 1 1 1 0  9000 1 0.5 1 1 1 0  1 5 0.5 1 1 1 0\nN 0 0 1 0 0 1 0 0 1\n",
+    ),
     ("lines.toml", "[polygon]\nlines = true\n"),
     ("list.toml", "[screen]\nwidth = [32]\n"),
     ("far.toml", "[screen]\nwidth = 0x8000\n"),
@@ -73,6 +78,15 @@ const REFUSED: &[(&[&str], &str)] = &[
     (
         &["render", "crease.toml"],
         "crease.toml:2: normals: crease: `\"group\"`: permitted: \"groups\", or a number from 0 to 180\n",
+    ),
+    // A vertex by the number that it has in the file.
+    (
+        &["render", "far.tri", "--adapt"],
+        "far.tri: triangle 0 (counted from 0), vertex 2 (from 1): x = 9000 lies outside the guard band",
+    ),
+    (
+        &["bench", "far.tri", "--adapt", "--engine", "fast"],
+        "far.tri: triangle 0 (counted from 0), vertex 2 (from 1): x = 9000 lies outside the guard band",
     ),
     // Machines by name.
     (
@@ -170,4 +184,35 @@ fn a_hexadecimal_width_is_that_number() {
     let printed = edgewalk(folder.path(), &["config", "print", "--machine", "m.toml"]).output().unwrap();
     let printed = String::from_utf8(printed.stdout).unwrap();
     assert!(printed.contains("width = 256") && printed.contains("height = 32"), "{printed}");
+}
+
+/// What a file says is shown, and steers no terminal.
+#[test]
+fn no_control_character_reaches_the_terminal() {
+    let folder = tempfile::tempdir().unwrap();
+    let scene =
+        "[[material]]\nname = \"a\"\n[[object]]\nbuiltin = \"sphere\"\nmaterial = \"\\u001b[32my\\u009b\"\n";
+    let files = [
+        ("a.tri", "size 8 8\n\x1b[31mfoo\n", "\\u{1b}[31mfoo"),
+        ("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 \x1b[32m\x7f\n", "\\u{1b}[32m\\u{7f}"),
+        ("a.toml", scene, "\\u{1b}[32my\\u{9b}"),
+        ("m.toml", "[screen]\n\"\\u001b[33mwidth\" = 1\n", "\\u{1b}[33mwidth"),
+    ];
+    for (name, text, shown) in files {
+        std::fs::write(folder.path().join(name), text).unwrap();
+        let arguments =
+            if name == "m.toml" { ["emit", "--machine", name] } else { ["render", name, "--adapt"] };
+        let (code, error) = run(folder.path(), &[&arguments[..], &["--out", "out"]].concat());
+        assert!(code == Some(2) && error.contains(shown), "{name}: {error:?}");
+        assert!(!error.contains(|letter: char| letter.is_control() && letter != '\n'), "{name}: {error:?}");
+    }
+    // A name in a report.
+    let named = "\x1b[31m.tri";
+    std::fs::write(folder.path().join(named), TRIANGLE).unwrap();
+    let output = edgewalk(folder.path(), &["raster", named, "--out", "out"]).output().unwrap();
+    let text = String::from_utf8(output.stdout).unwrap();
+    assert!(
+        output.status.success() && text.contains("\\u{1b}[31m.tri") && !text.contains('\x1b'),
+        "{text:?}"
+    );
 }

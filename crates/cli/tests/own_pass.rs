@@ -270,3 +270,22 @@ fn the_page_has_the_cycles_of_the_maps() {
     }
     assert_eq!(checked, 10);
 }
+
+/// A map with shares is drawn by BLEND, in an opaque frame too.
+#[test]
+fn a_pane_brings_blend_with_it() {
+    let folder = tempfile::tempdir().unwrap();
+    let opaque = "T 1 1 0.5 1 1 1 0  5 1 0.5 1 1 1 0  1 5 0.5 1 1 1 0\n";
+    let light = "shadow 4 0 0.25  1 0 0 0  0 1 0 0  0 0 1 0  0 0 0 1\nL 0 0 0.25 4 0 0.25 0 4 0.25 0.5\n";
+    let render = |file: &str, arguments: &[&str]| {
+        std::fs::write(folder.path().join("a.tri"), file).unwrap();
+        run(folder.path(), &[&["render", "a.tri", "--out", "o", "--set", OWN], arguments].concat())
+    };
+    let file = format!("size 8 8\n{light}{opaque}");
+    let (code, error) = render(&file, &["--set", "shadow.light=parallel"]);
+    assert!(code == Some(2) && error.contains(" --set blend.kind=constant "), "{error}");
+    for rules in ["", "blend 1\n"] {
+        let (code, error) = render(&format!("size 8 8\n{light}{rules}{opaque}"), &["--adapt"]);
+        assert_eq!((code, error.as_str()), (Some(0), ""), "{rules}");
+    }
+}

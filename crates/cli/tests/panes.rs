@@ -376,7 +376,7 @@ fn what_a_map_cannot_hold_is_said() {
         (
             PANES.replacen("   1 0 0 0", "   99 0 0 0", 1),
             with(&["shadow.guard_bits=6"]),
-            &["triangle 0, vertex 1", "lx = 792", "-255 to 255"],
+            &["triangle 0 (counted from 0), vertex 2 (from 1)", "lx = 792", "-255 to 255"],
         ),
         (PANES.replacen("T ", "light 2\nT ", 1), with(&[]), &["a.tri:12: light: `2`", "0 to 1"]),
         (PANES.replacen("L  0 0 0.2 ", "L  -9000 0 0.2 ", 1), with(&[]), &["triangle 2 of the map", "guard"]),

@@ -192,7 +192,7 @@ fn malformed_polygons_name_place_and_remedy() {
         ),
         (
             format!("blend 1\n{}", first("1 0 0 0", "1 0 0 0.5")),
-            &["polygon 0: kt within a polygon", "blend.kind=interpolated", "mode flat"],
+            &["polygon 0 (counted from 0): kt within a polygon", "blend.kind=interpolated", "mode flat"],
         ),
         (
             "P 4 1 1 0 1 0 0 0 8 8 0 1 0 0 0 8 1 1 1 0 0 0 1 8 .5 1 0 0 0".into(),

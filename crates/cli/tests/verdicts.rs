@@ -101,6 +101,26 @@ fn a_flat_frame_on_a_coloured_ground_is_counted_right() {
     assert!(text.contains("fragments 120, writes 96\ncompared 96 / 96 covered pixels\n"), "{text}");
 }
 
+/// The nearer triangle comes last, so a depth buffer writes twice where scan lines write once.
+#[test]
+fn scan_lines_pass_however_often_a_buffer_writes() {
+    let folder = tempfile::tempdir().unwrap();
+    let over = TWO.replace(" .75 ", " .25 ");
+    write(folder.path().join("a.tri"), over).unwrap();
+    let mut writes = Vec::new();
+    for engine in ["scanline", "fast"] {
+        let output = edgewalk(
+            folder.path(),
+            &["render", "a.tri", "--engine", engine, "--adapt", "--json", "--out", "o"],
+        );
+        assert_eq!(output.status.code(), Some(0), "{engine}: {}", String::from_utf8_lossy(&output.stdout));
+        let report: Value = serde_json::from_slice(&output.stdout).unwrap();
+        assert_eq!(report["comparison"]["compared"], 96, "{engine}");
+        writes.push(report["writes"].as_u64().unwrap());
+    }
+    assert_eq!(writes, [96, 120]);
+}
+
 #[test]
 fn nothing_drawn_is_exit_code_2_with_its_reason_even_if_quiet() {
     let folder = tempfile::tempdir().unwrap();

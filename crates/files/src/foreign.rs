@@ -83,6 +83,15 @@ fn opened(path: &Path) -> std::io::Result<File> {
     Ok(file)
 }
 
+/// Whether the numbers of a header are decimal and their product fits into 64 bits. Crate `npyz` multiplies the lengths of a shape and
+/// panics beyond. Lengths of 0 count as 1, as it also multiplies some of them.
+fn are_countable(header: &str) -> bool {
+    let words = header.split(|letter: char| !letter.is_alphanumeric() && letter != '_');
+    let mut numbers = words.filter(|word| word.starts_with(|letter: char| letter.is_ascii_digit()));
+    let product = numbers.try_fold(1u64, |all, number| all.checked_mul(number.parse::<u64>().ok()?.max(1)));
+    product.is_some()
+}
+
 /// An array whose shape is that of the screen.
 struct Array(NpyFile<BufReader<File>>);
 
@@ -94,11 +103,18 @@ impl Array {
         file.read_exact(&mut start)
             .context("is no numpy array: it is shorter than a header; write it with numpy.save")?;
         ensure!(start.starts_with(b"\x93NUMPY"), "no array of numpy: it does not begin with \\x93NUMPY");
-        let header = match start[6] {
-            1 => u64::from(u16::from_le_bytes([start[8], start[9]])),
-            _ => u64::from(u32::from_le_bytes([start[8], start[9], start[10], start[11]])),
+        let (before, header) = match start[6] {
+            1 => (10, u64::from(u16::from_le_bytes([start[8], start[9]]))),
+            _ => (12, u64::from(u32::from_le_bytes([start[8], start[9], start[10], start[11]]))),
         };
         ensure!(header <= MAX_HEADER, "a header of {header} bytes; permitted: {MAX_HEADER}");
+        let mut text = Vec::new();
+        file.by_ref().take((before + header).saturating_sub(start.len() as u64)).read_to_end(&mut text)?;
+        ensure!(
+            are_countable(&String::from_utf8_lossy(&text)),
+            "its header has a length that is no decimal number, or more values than 64 bits count; permitted: {width} columns, {height} \
+             lines"
+        );
         file.rewind()?;
         let array = NpyFile::new(file)?;
         let mut shape = vec![u64::from(height), u64::from(width)];

@@ -31,7 +31,7 @@ pub fn scan_lines(frame: &edgewalk_scene::Frame, machine: &Plan) -> Result<Raste
             "--engine scanline: {why}: permitted: opaque surfaces under one rule, depth less or lequal; draw with --engine golden"
         )
     })?;
-    Ok(Raster { host: frame.host, ..from_golden(picture, machine) })
+    Ok(Raster { host: frame.host, written_once: true, ..from_golden(picture, machine) })
 }
 
 /// The machine's picture and cycles, without ticking where that is exact.

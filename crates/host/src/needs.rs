@@ -1,9 +1,10 @@
 //! What a frame asks of a machine: every key that must have another value, all of them at once.
 
 use crate::extra;
+use crate::vertices::named;
 use anyhow::Result;
 use edgewalk_machine::keys::KEYS;
-use edgewalk_machine::{Gate, Plan, ShadeColour, ShadeLight};
+use edgewalk_machine::{Gate, OwnPass, Plan, ShadeColour, ShadeLight};
 use edgewalk_scene::{Blending, Frame, Light, PixelMethod, PixelShading, ShadeMode, Shadow, Triangle};
 use std::fmt;
 
@@ -25,12 +26,7 @@ fn need(key: &'static str, value: impl ToString, why: String) -> Need {
 /// Every key of the machine that the frame asks another value for. What no key can give is not among them.
 #[must_use]
 pub fn needs(frame: &Frame, machine: &Plan) -> Vec<Need> {
-    let mut needs = Vec::new();
-    let own = extra::channels(machine).len();
-    if frame.extra != own {
-        let why = format!("extra {}: the machine has channels.extra = {own}", frame.extra);
-        needs.push(need("channels.extra", frame.extra, why));
-    }
+    let mut needs = Vec::from_iter(of_golden(frame, machine));
     if !frame.lines.is_empty() && !machine.polygon.has_lines() {
         let why = "lines: the machine's port takes triangles only (polygon.lines = no)".to_owned();
         needs.push(need("polygon.lines", "yes", why));
@@ -51,18 +47,34 @@ pub fn needs(frame: &Frame, machine: &Plan) -> Vec<Need> {
     needs
 }
 
+/// The need of a frame that golden draws: it has the channels of the machine, and draws whatever else the machine lacks.
+#[must_use]
+pub fn of_golden(frame: &Frame, machine: &Plan) -> Option<Need> {
+    let own = extra::channels(machine).len();
+    (frame.extra != own).then(|| {
+        let why = format!("extra {}: the machine has channels.extra = {own}", frame.extra);
+        need("channels.extra", frame.extra, why)
+    })
+}
+
 /// Accepts a frame whose every need the machine meets.
 ///
 /// # Errors
 /// All that it does not meet, with the settings that do.
 pub fn check(frame: &Frame, machine: &Plan) -> Result<()> {
-    let needs = needs(frame, machine);
+    met(&needs(frame, machine))
+}
+
+/// Accepts a machine that lacks nothing of this.
+///
+/// # Errors
+/// All that it lacks, with the settings that give it.
+pub fn met(needs: &[Need]) -> Result<()> {
     if needs.is_empty() {
         return Ok(());
     }
     let whys: Vec<&str> = needs.iter().map(|need| need.why.as_str()).filter(|why| !why.is_empty()).collect();
     let settings = needs.iter().map(|need| (need.key.to_owned(), need.value.clone())).collect();
-    // Golden has the channels of the machine, too.
     let by_golden = needs.iter().any(|need| need.key != "channels.extra");
     Err(NotMet { why: whys.join("; "), settings, by_golden }.into())
 }
@@ -110,7 +122,8 @@ fn blending(frame: &Frame, machine: &Plan, needs: &mut Vec<Need>) {
     let mixed = |place: usize| frame.drawn() > frame.triangles.len() || in_mix(place);
     let uneven = |(place, Triangle(v)): (usize, &Triangle)| {
         let corner = (1..3).find(|corner| v[*corner].kt != v[0].kt).filter(|_| mixed(place))?;
-        Some(format!("triangle {place}, vertex {corner}: kt = {} after {}", v[corner].kt, v[0].kt))
+        let corner_of = named("triangle", place, Some(("vertex", corner)));
+        Some(format!("{corner_of}: kt = {} after {}", v[corner].kt, v[0].kt))
     };
     let of_polygons = || {
         let mut kts = frame.polygons.iter().map(|polygon| polygon.contours.iter().flatten().map(|v| v.kt));
@@ -163,6 +176,13 @@ fn shadows(first: &Shadow, all: &[Shadow], machine: &Plan, needs: &mut Vec<Need>
     if let Some(pane) = all.iter().flat_map(|shadow| &shadow.panes).next().filter(|_| !own.transmits()) {
         let why = format!("L with kt = {}: the machine's map says lit or not", pane.kt);
         needs.push(need("shadow.transmits", "yes", why));
+        if own.own_pass == OwnPass::Yes
+            && !machine.blend.is_there()
+            && needs.iter().all(|need| need.key != "blend.kind")
+        {
+            let why = format!("L with kt = {}: BLEND draws such a map, and the machine has none", pane.kt);
+            needs.push(need("blend.kind", "constant", why));
+        }
     }
     if let Some(shadow) = all.iter().find(|shadow| shadow.ambient > 0.0 && own.gate == Gate::And) {
         let why = format!("shadow AMBIENT = {}: shadow.gate = and leaves nothing in shadow", shadow.ambient);
@@ -209,7 +229,8 @@ fn shaded(frame: &Frame, shading: &PixelShading, machine: &Plan, needs: &mut Vec
     if own.colour == ShadeColour::Tables
         && let Some(why) = match uneven {
             Some(triangle) => Some(format!(
-                "triangle {triangle}: its colour is not the same at all vertices, and the machine's tables hold one"
+                "{}: its colour is not the same at all vertices, and the machine's tables hold one",
+                named("triangle", triangle, None)
             )),
             None if textured => {
                 Some("texture: the machine's tables hold the colour that a texel multiplies".to_owned())

@@ -6,8 +6,8 @@
 //! ```
 
 use crate::misplaced::misplaced;
-use crate::vertices::{guard_band, port_triangle};
-use anyhow::{Context as _, Result, anyhow};
+use crate::vertices::{guard_band, named, port_vertices};
+use anyhow::{Result, anyhow};
 use edgewalk_machine::key::Domain;
 use edgewalk_machine::keys::KEYS;
 use edgewalk_machine::{COLOURS, Channel, Kind, Plan, PortVertex, Window};
@@ -153,15 +153,16 @@ pub fn on_port(
     if state.blend == Blending::Mix && machine.has_triangle_kt() && frame.mode == ShadeMode::Gouraud && uneven
     {
         return Err(anyhow!(
-            "polygon {place}: kt within a polygon: blend.kind = constant, as dither.screen_door = yes, has one for a polygon; \
-             add --set blend.kind=interpolated, or draw with mode flat"
+            "{}: kt within a polygon: blend.kind = constant, as dither.screen_door = yes, has one for a polygon; \
+             add --set blend.kind=interpolated, or draw with mode flat",
+            named("polygon", place, None)
         ));
     }
-    let snap = |v: &Vertex| {
-        let vertices = port_triangle(place, &Triangle([*v; 3]), frame, state, machine);
-        vertices
-            .map(|[vertex, ..]| vertex)
-            .with_context(|| format!("polygon {place}, vertex {} {}", v.x, v.y))
+    let snap = |v: &Vertex| -> Result<PortVertex> {
+        let name = |_| format!("{}, vertex {} {}", named("polygon", place, None), v.x, v.y);
+        let vertices = port_vertices(place, &Triangle([*v; 3]), frame, state, machine, &name)?;
+        let [vertex, ..] = machine.windowed(vertices);
+        Ok(vertex)
     };
     polygon.contours.iter().map(|contour| contour.iter().map(snap).collect()).collect()
 }

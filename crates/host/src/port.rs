@@ -5,7 +5,7 @@ use crate::needs;
 use crate::polygon::{self, Piece};
 use crate::raster::{Cycles, LightPass, Raster};
 use crate::shade::{Feed, feed, shading_for};
-use crate::vertices::{guard_band, port_triangle, port_vertices};
+use crate::vertices::{guard_band, named, port_triangle, port_vertices};
 use anyhow::{Result, anyhow};
 use edgewalk_machine::{Plan, PortVertex};
 use edgewalk_model::{DrawState, Pass, Shading};
@@ -259,10 +259,7 @@ fn port_line(
     machine: &Plan,
 ) -> Result<[PortVertex; 3]> {
     let [a, b] = line.ends;
-    let name = |corner: Option<usize>| match corner {
-        Some(corner) => format!("line {index}, end {}", corner.min(1)),
-        None => format!("line {index}"),
-    };
+    let name = |corner: Option<usize>| named("line", index, corner.map(|corner| ("end", corner.min(1))));
     let [a, _, b] = port_vertices(index, &Triangle([a, a, b]), frame, state, machine, &name)?;
     Ok(machine.windowed(machine.line([a, b])))
 }

@@ -17,6 +17,8 @@ pub struct Raster {
     pub coverage: Vec<u32>,
     /// Writes to the pixel.
     pub writes: Vec<u32>,
+    /// Scan lines drew: a pixel is written once, however often a depth buffer writes it.
+    pub written_once: bool,
     /// Triangle or polygon last written, by its place in the list, -1 none.
     pub id: Vec<i32>,
     /// Depth in 0 to 1.
@@ -143,6 +145,7 @@ pub fn from_golden(picture: edgewalk_golden::Picture, machine: &Plan) -> Raster 
         height: picture.height,
         coverage: picture.coverage,
         writes: picture.writes,
+        written_once: false,
         id: picture.id,
         z: picture.z,
         rgb: picture.rgb,
@@ -164,6 +167,7 @@ pub fn from_machine(machine: &Plan, drawn: edgewalk_model::Frame) -> Raster {
         height: drawn.coverage.len() as u32 / machine.width,
         coverage: drawn.coverage,
         writes: drawn.writes,
+        written_once: false,
         id: drawn.id,
         z: unorm(&drawn.z, machine.z.max()),
         rgb: drawn.rgb.iter().map(|c| c.map(|v| v as f64 / machine.stored_color().max() as f64)).collect(),

@@ -1,14 +1,23 @@
 //! Vertices snapped to the machine's port.
 
 use crate::light;
-use anyhow::{Context as _, Result, anyhow};
-use edgewalk_machine::{Plan, PortVertex};
+use anyhow::{Context as _, Error, Result, anyhow};
+use edgewalk_machine::{Plan, PortVertex, VertexError};
 use edgewalk_scene::{Blending, Frame, ShadeMode, State, Triangle};
 
 /// Half a side of the machine's guard band, pixels.
 #[must_use]
 pub fn guard_band(machine: &Plan) -> f64 {
     f64::from((1u32 << machine.guard_bits) - 1)
+}
+
+/// What messages call the primitive of this kind at a place, or its corner. Places count as in `id.npy`, corners as in a triangle file.
+pub(crate) fn named(kind: &str, place: usize, corner: Option<(&str, usize)>) -> String {
+    let of = format!("{kind} {place} (counted from 0)");
+    match corner {
+        Some((corner, number)) => format!("{of}, {corner} {} (from 1)", number + 1),
+        None => of,
+    }
 }
 
 /// Snaps triangle number `index`, drawn by these rules, to the port, or says that the machine cannot take it.
@@ -19,10 +28,7 @@ pub fn port_triangle(
     state: &State,
     machine: &Plan,
 ) -> Result<[PortVertex; 3]> {
-    let name = |corner: Option<usize>| match corner {
-        Some(corner) => format!("triangle {index}, vertex {corner}"),
-        None => format!("triangle {index}"),
-    };
+    let name = |corner: Option<usize>| named("triangle", index, corner.map(|corner| ("vertex", corner)));
     Ok(machine.windowed(port_vertices(index, triangle, frame, state, machine, &name)?))
 }
 
@@ -41,7 +47,7 @@ pub(crate) fn port_vertices(
         light::values(frame.shadow(state.light), index, &triangle.0, machine).with_context(|| name(None))?;
     for (corner, (slot, v)) in port.iter_mut().zip(&triangle.0).enumerate() {
         let v = if mode == ShadeMode::Flat { v.colored_as(&triangle.0[0]) } else { *v };
-        let named = || name(Some(corner));
+        let here = || name(Some(corner));
         let mut values = vec![v.z, v.r, v.g, v.b];
         values.extend_from_slice(&v.extra[..machine.extra as usize]);
         if machine.shadow.is_there() {
@@ -56,9 +62,20 @@ pub(crate) fn port_vertices(
                 v.kt,
                 triangle.0[0].kt
             ))
-            .with_context(named);
+            .with_context(here);
         }
-        *slot = machine.port_vertex(v.x, v.y, &values).with_context(named)?;
+        *slot = machine.port_vertex(v.x, v.y, &values).map_err(|e| under(e, state)).with_context(here)?;
     }
     Ok(port)
+}
+
+/// An error of a vertex, with the light that it is of.
+fn under(error: VertexError, state: &State) -> Error {
+    match error {
+        VertexError::Channel { channel: "lx" | "ly" | "lz", .. } => anyhow!(
+            "{error} under light {}; give its `shadow` line a larger SIZE or other numbers, or draw with --engine golden",
+            state.light
+        ),
+        error => error.into(),
+    }
 }

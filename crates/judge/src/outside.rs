@@ -132,7 +132,9 @@ fn judge(
         },
         if reference.lit.is_some() { ", or lit" } else { "" }
     );
-    let judge = Judge { frame, primitives: frame.primitives(), reference, outside, tolerance, layers };
+    let stores_color = frame.passes().iter().any(|pass| pass.state.color_write);
+    let primitives = frame.primitives();
+    let judge = Judge { frame, primitives, stores_color, reference, outside, tolerance, layers };
     let pixels = reference.coverage.len();
     let differ: Vec<usize> = (0..pixels).filter(|pixel| !judge.agrees(*pixel)).collect();
     let over = match fill {
@@ -159,6 +161,8 @@ struct Judge<'a> {
     frame: &'a Frame,
     /// By their places in the input.
     primitives: Vec<Primitive<'a>>,
+    /// Whether any colour is stored, and the triangle with it.
+    stores_color: bool,
     reference: &'a Raster,
     outside: &'a Picture,
     tolerance: &'a Tolerance,
@@ -224,30 +228,35 @@ impl Judge<'_> {
         };
         let winner = shows(reference.id[pixel], reference.z[pixel], reference.rgb[pixel]);
         let background = shows(-1, 1.0, self.frame.clear);
-        let drawn = reference.id[pixel] >= 0;
+        let covered = reference.coverage[pixel] > 0;
         let errors = self.errors(pixel);
         let [z, _] = errors;
-        let other =
-            || over.iter().find(|over| over.id != reference.id[pixel] && shows(over.id, over.z, over.rgb));
+        let triangle = self.stored(pixel, over);
+        // Where no colour is stored, depths alone tell triangles apart.
+        let is_shown = |over: &Over| match self.stores_color {
+            true => shows(over.id, over.z, over.rgb),
+            false => shows(-1, over.z, reference.rgb[pixel]),
+        };
+        let other = || over.iter().find(|over| over.id != triangle && is_shown(over));
         // Another number of triangles over the pixel explains a wrong value before anything else does.
         let more = self.outside.coverage.as_ref().map(|own| own[pixel].cmp(&reference.coverage[pixel]));
-        let cause = match (drawn, winner) {
+        let cause = match (covered, winner) {
             (_, true) => self.counts(pixel),
             (true, false) if background || more == Some(Ordering::Less) => Cause::Missing,
-            (false, false) if !background => Cause::Extra,
+            (false, false) => Cause::Extra,
             (true, false) if more == Some(Ordering::Greater) => Cause::Extra,
             (true, false) => match other() {
-                Some(other) if (other.z - reference.z[pixel]).abs() <= self.tolerance.tie() => Cause::Tie,
+                Some(other) if triangle >= 0 && self.ties(pixel, other) => Cause::Tie,
                 Some(_) => Cause::WrongWinner,
                 None if own.is_some_and(|own| own != reference.id[pixel]) => Cause::WrongWinner,
                 None if !within(z, self.permitted(pixel)[0]) => Cause::Depth,
                 None => Cause::Color,
             },
-            // A frame that stores depths alone: the picture shows the cleared depth.
-            (false, false) => Cause::Depth,
         };
         let shown = match cause {
-            Cause::Tie | Cause::WrongWinner => own.or_else(|| other().map(|other| other.id)),
+            Cause::Tie | Cause::WrongWinner => {
+                own.filter(|_| self.stores_color).or_else(|| other().map(|other| other.id))
+            }
             Cause::Extra => own.filter(|id| *id >= 0),
             _ => None,
         };
@@ -255,15 +264,31 @@ impl Judge<'_> {
             x: pixel as u32 % reference.width,
             y: pixel as u32 / reference.width,
             cause,
-            triangle: reference.id[pixel],
+            triangle,
             shown,
-            kinds: [reference.id[pixel], shown.unwrap_or(-1)].map(|id| self.kind(id)),
+            kinds: [triangle, shown.unwrap_or(-1)].map(|id| self.kind(id)),
             z: self.outside.z.as_ref().map(|own| [reference.z[pixel], own[pixel]]),
             rgb: self.outside.rgb.as_ref().map(|own| [reference.rgb[pixel], own[pixel]]),
             coverage: self.outside.coverage.as_ref().map(|own| [reference.coverage[pixel], own[pixel]]),
             error_lsb: errors,
             edge: None,
         }
+    }
+
+    /// The triangle that the reference shows at a pixel; where no colour is stored the one of these over it whose depth is stored; -1 none.
+    fn stored(&self, pixel: usize, over: &[Over]) -> i32 {
+        let Raster { id, z, .. } = self.reference;
+        if self.stores_color {
+            return id[pixel];
+        }
+        let off = |over: &Over| (over.z - z[pixel]).abs();
+        let nearest = over.iter().min_by(|a, b| off(a).total_cmp(&off(b)));
+        nearest.map_or(-1, |over| over.id)
+    }
+
+    /// Whether the depth of a triangle is so near to the reference's that the tolerance lets either win.
+    fn ties(&self, pixel: usize, other: &Over) -> bool {
+        (other.z - self.reference.z[pixel]).abs() <= self.tolerance.tie()
     }
 
     /// The cause at a pixel whose depth and colour are right.

@@ -28,7 +28,7 @@ pub use face_data::FaceData;
 pub use material::Material;
 pub use t_joints::TJoint;
 
-pub(crate) use face::triangles;
+pub(crate) use face::{MAX_CORNERS, triangles};
 pub(crate) use join::Part;
 pub(crate) use knot::torus_knot;
 pub(crate) use room::room;

@@ -29,7 +29,10 @@ fn obj_fault_names_line_and_range() {
         (square("f 1 2 5"), "a.obj:5: f corner: `5`: permitted: 1 to 4 or -4 to -1, the positions"),
         (square("f 0 1 2"), "a.obj:5: f corner: `0`"),
         (square("f -5 1 2"), "a.obj:5: f corner: `-5`"),
-        (square("f 1 2"), "a.obj:5: f: `2 corners`: permitted: at least 3 corners"),
+        (
+            square("f 1 2"),
+            "a.obj:5: f: `2 corners`: permitted: 3 to 16384 corners; cut the face into smaller ones",
+        ),
         (square("f"), "a.obj:5: f: `0 corners`"),
         (square("f 1 2 3.5"), "a.obj:5: f corner: `3.5`"),
         (square("f 1 2 1e2"), "a.obj:5: f corner: `1e2`"),

@@ -184,7 +184,7 @@ fn malformed_files_are_refused_by_line_and_key() {
         ("checker = 2", "checker = 2\nwaves = 0", 27, "waves: `0`"),
         ("checker = 2", "checker = 2\nwaves = 3\nbump_height = nan", 28, "bump_height: `nan`"),
         ("faces = [[0, 1, 2, 3]]", "faces = [[0, 1, 4]]", 31, "places from 0 to 3"),
-        ("faces = [[0, 1, 2, 3]]", "faces = [[0, 1]]", 31, "at least 3 places"),
+        ("faces = [[0, 1, 2, 3]]", "faces = [[0, 1]]", 31, "3 to 16384 places a face"),
         ("faces = [[0, 1, 2, 3]]", "faces = []", 31, "at least one face"),
         (
             "faces = [[0, 1, 2, 3]]",

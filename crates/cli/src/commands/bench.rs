@@ -1,7 +1,7 @@
 //! `edgewalk bench`: frames and cycles a second of every engine on the same triangles, in one run.
 
 use crate::document::line;
-use crate::input::{Source, to_port};
+use crate::input::Source;
 use crate::machine_args::MachineArgs;
 use crate::number::whole;
 use crate::verdict::Verdict;
@@ -45,7 +45,7 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
         return Err(engine.not_built());
     }
     let (machine, frame) = args.source.on_its_screen(machine)?;
-    let port = to_port(&frame, &machine)?;
+    let port = args.source.to_port(&frame, &machine)?;
     let whole = Job::new(&machine, &port.triangles, port.words(), (port.state()?, args.stalls), args.repeat)?;
     let size = (machine.width, machine.height);
     Verdict::drew(whole.fragments).or_nothing(&args.source.input, whole.triangles.len() as u64, size)?;

@@ -236,7 +236,7 @@ fn of_input(drawn: &Raster, places: &[i32]) -> Raster {
 fn drawn(of: &Asked, waits: Waits, mut see: impl FnMut(&Raster) -> Result<()>) -> Result<Report> {
     let Asked { plan, input, .. } = of;
     let (frame, places) = input.placed(plan)?;
-    let port = to_port(&frame, plan)?;
+    let port = to_port(&frame, plan).with_context(|| input.name().to_owned())?;
     let reach = reach(plan, &port)?;
     let shading = port.shade.as_ref().map(|feed| &feed.proof);
     let proved = Proved { reach: reach.as_ref(), shading };

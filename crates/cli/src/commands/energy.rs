@@ -3,7 +3,7 @@
 use crate::Talk;
 use crate::cell_energy::{CellEnergy, Drawing};
 use crate::document::document;
-use crate::input::{Source, to_port};
+use crate::input::Source;
 use crate::machine_args::MachineArgs;
 use crate::number::{real, whole};
 use crate::progress;
@@ -53,7 +53,7 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
     let machine = args.source.machine(machine)?;
     let cells = CellEnergy::new(args.library.as_deref(), args.cache.as_deref(), args.limit)?;
     let first = args.triangles.map_or(usize::MAX, |most| usize::try_from(most).unwrap_or(usize::MAX));
-    let port = to_port(&args.source.first(&machine, first)?, &machine)?;
+    let port = args.source.to_port(&args.source.first(&machine, first)?, &machine)?;
     let tokens = port.triangles.len() as u64;
     Verdict::drew(tokens).or_nothing(&args.source.input, 0, (machine.width, machine.height))?;
     let bar = progress::bar(tokens, "tokens", talk.quiet);

@@ -98,15 +98,19 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
     let file = TriangleFile::open(&args.file)?;
     let header = file.header()?;
     let screen = Some((header.width, header.height));
+    let asked = |frame: &Frame, machine: &Plan| match args.engine {
+        Engine::Golden | Engine::Scanline => Vec::from_iter(needs::of_golden(frame, machine)),
+        _ => needs(frame, machine),
+    };
     let machine = if args.adapt {
         let frame = file.whole()?;
-        machine.adapted(screen, |machine: &Plan| Ok(needs(&frame, machine)))?
+        machine.adapted(screen, |machine: &Plan| Ok(asked(&frame, machine)))?
     } else {
         machine.machine(screen)?
     };
     as_large(&name, &header, &machine)?;
     if header.extra != extra::channels(&machine).len() {
-        needs::check(&file.whole()?, &machine).with_context(|| name.clone())?;
+        needs::met(&asked(&file.whole()?, &machine)).with_context(|| name.clone())?;
     }
     let report = match args.engine {
         // Of a light all triangles are needed before the first pixel; of what the machine lacks, to name all of it.

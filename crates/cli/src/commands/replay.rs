@@ -4,7 +4,7 @@ mod truth;
 
 use crate::Talk;
 use crate::document::document;
-use crate::input::{Source, to_port};
+use crate::input::Source;
 use crate::kept;
 use crate::machine_args::MachineArgs;
 use crate::number::whole;
@@ -142,7 +142,7 @@ fn drawn(args: &Args, asked_for: &MachineArgs) -> Result<Shown> {
     let part = whole.first(usize::try_from(args.triangles).unwrap_or(usize::MAX));
     let drawn = counted(&part);
     let frame = in_triangles(part, &machine)?;
-    let port = to_port(&frame, &machine)?;
+    let port = args.source.to_port(&frame, &machine)?;
     let (count, size) = (port.triangles.len() as u64, (machine.width, machine.height));
     Verdict::drew(count).or_nothing(&args.source.input, 0, size)?;
     let to = args.cycles.map(|cycles| args.from.saturating_add(cycles - 1)).or(args.to);

@@ -2,7 +2,7 @@
 
 use crate::Talk;
 use crate::document::document;
-use crate::input::{Source, to_port};
+use crate::input::Source;
 use crate::machine_args::MachineArgs;
 use crate::number::real;
 use crate::verdict::Verdict;
@@ -58,7 +58,7 @@ fn file(channel: &str, answer: &str) -> String {
 /// Runs the command.
 pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
     let (machine, frame) = args.source.on_its_screen(machine)?;
-    let port = to_port(&frame, &machine)?;
+    let port = args.source.to_port(&frame, &machine)?;
     let found = size(&machine, &frame, &port, args.error).with_context(|| args.source.input.clone())?;
     let out = Staging::new(&args.out)?;
     let mut own = Vec::new();

@@ -4,7 +4,7 @@ mod views;
 
 use crate::Talk;
 use crate::document::document;
-use crate::input::{PortFrame, Source, to_port};
+use crate::input::{PortFrame, Source};
 use crate::kept;
 use crate::machine_args::MachineArgs;
 use crate::number::whole;
@@ -88,7 +88,7 @@ enum Wave {
 pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
     let machine = args.source.machine(machine)?;
     let frame = args.source.first(&machine, usize::try_from(args.triangles).unwrap_or(usize::MAX))?;
-    let port = to_port(&frame, &machine)?;
+    let port = args.source.to_port(&frame, &machine)?;
     let size = (machine.width, machine.height);
     Verdict::drew(port.triangles.len() as u64).or_nothing(&args.source.input, 0, size)?;
     let kind = args.out.extension().and_then(|e| e.to_str()).unwrap_or_default();

@@ -1,7 +1,7 @@
 //! `edgewalk vectors`: stimuli, expected results and self-checking test benches.
 
 use crate::document::document;
-use crate::input::{Source, to_port};
+use crate::input::Source;
 use crate::machine_args::MachineArgs;
 use crate::number::whole;
 use crate::suites::{self, Set, check_unit, of_input, only, stalls};
@@ -96,7 +96,7 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
         Some(input) => {
             let source = Source::new(input, args.adapt);
             let machine = source.machine(machine)?;
-            let port = to_port(&source.whole(&machine)?, &machine)?;
+            let port = source.to_port(&source.whole(&machine)?, &machine)?;
             let suite = of_input(input, &machine, &port, args.triangles)?;
             (machine, Some(Suite { seed: args.seed, ..suite }))
         }

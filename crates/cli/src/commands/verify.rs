@@ -6,7 +6,7 @@ mod nothing;
 mod own;
 
 use crate::document::document;
-use crate::input::{Source, to_port};
+use crate::input::Source;
 use crate::machine_args::MachineArgs;
 use crate::number::whole;
 use crate::suites::{directed, functions, of_input, only, stalls, warn_of_gaps};
@@ -114,7 +114,7 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
     // Whatever is wrong with the design is said first.
     let wiring = args.dut.as_deref().map(|file| crate::own::design(file, &machine)).transpose()?;
     let frame = args.source.whole(&machine)?;
-    let port = to_port(&frame, &machine)?;
+    let port = args.source.to_port(&frame, &machine)?;
     let input = Suite {
         name: "input".to_owned(),
         ..of_input(&args.source.input, &machine, &port, Some(args.triangles))?

@@ -72,7 +72,9 @@ fn a_value_that_the_channel_does_not_hold_is_named() {
             let arguments = ["raster", "in.tri", "--engine", engine, "--out", "OUT", "--set"];
             let (code, error) =
                 run(folder.path(), &[&arguments[..], &["channels.extra=1", "--set", &set]].concat());
-            let message = format!("error: in.tri: triangle 1, vertex 2: e0 = {value} lies outside {range}\n");
+            let message = format!(
+                "error: in.tri: triangle 1 (counted from 0), vertex 3 (from 1): e0 = {value} lies outside {range}\n"
+            );
             assert_eq!((code, error), (Some(2), message));
             refused += 1;
         }
@@ -114,4 +116,24 @@ fn malformed_values_name_line_reason_and_the_valid_form() {
     }
     println!("checked {refused} / 40 files");
     assert_eq!(refused, 40);
+}
+
+/// Golden has the channels of the machine, and draws whatever else the machine lacks.
+#[test]
+fn golden_asks_for_its_channels_alone() {
+    let folder = tempfile::tempdir().unwrap();
+    let x = "1 2 3 4 1 2 3 4 1 2 3 4";
+    std::fs::write(folder.path().join("in.tri"), format!("size 64 48\nextra 4\nblend 1\n{T}X {x}\n"))
+        .unwrap();
+    for engine in ["golden", "scanline"] {
+        let arguments = ["raster", "in.tri", "--engine", engine, "--out", "OUT"];
+        let message = "error: in.tri: extra 4: the machine has channels.extra = 0; give --set channels.extra=4, or --adapt, \
+                       which sets the keys that are not given\n";
+        assert_eq!(run(folder.path(), &arguments), (Some(2), message.to_owned()), "{engine}");
+        let (code, error) = run(folder.path(), &[&arguments[..], &["--adapt"]].concat());
+        match engine {
+            "golden" => assert_eq!((code, error.as_str()), (Some(0), "")),
+            _ => assert!(code == Some(2) && error.contains("the frame blends"), "{error}"),
+        }
+    }
 }

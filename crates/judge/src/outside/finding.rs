@@ -79,7 +79,8 @@ pub struct Finding {
     pub y: u32,
     /// Why.
     pub cause: Cause,
-    /// Place in the input of the triangle, polygon or line that the reference shows, -1 none.
+    /// Place in the input of the triangle, polygon or line that the reference shows, or of a frame without colours the triangle whose
+    /// depth it stores; -1 none.
     pub triangle: i32,
     /// Place in the input of the one that the picture shows, where it is known to be another.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -108,6 +109,8 @@ impl Finding {
     fn line(&self) -> String {
         let Finding { x, y, cause, triangle, shown, kinds: [kind, other], error_lsb: [z, color], .. } = self;
         let at = format!("  ({x}, {y}) {}", cause.text());
+        let of = if *triangle < 0 { "the background".to_owned() } else { format!("{kind} {triangle}") };
+        let values_of = if *triangle < 0 { String::new() } else { format!("{of}: ") };
         let why = match cause {
             Cause::Missing | Cause::Extra => self.edge.map_or_else(String::new, |edge| {
                 let Edge { triangle, kind, vertices: [from, to], distance } = edge;
@@ -120,17 +123,15 @@ impl Finding {
             }),
             Cause::Tie | Cause::WrongWinner => {
                 let shown = shown.map_or_else(|| "another".to_owned(), |id| format!("{other} {id}"));
-                format!(": {shown} for {kind} {triangle}; depth {z:.4} LSB off")
+                format!(": {shown} for {of}; depth {z:.4} LSB off")
             }
-            Cause::Depth => format!(": {kind} {triangle}: {z:.4} LSB off"),
-            Cause::Color => format!(": {kind} {triangle}: {color:.4} LSB off"),
+            Cause::Depth => format!(": {values_of}{z:.4} LSB off"),
+            Cause::Color => format!(": {values_of}{color:.4} LSB off"),
             Cause::Twice | Cause::LayerMissing => {
                 self.coverage.map_or_else(String::new, |[reference, own]| format!(": {own} for {reference}"))
             }
             Cause::Piece => {
-                format!(
-                    ": {kind} {triangle}: depth {z:.4} and colour {color:.4} LSB off golden's of all of it"
-                )
+                format!(": {values_of}depth {z:.4} and colour {color:.4} LSB off golden's of all of it")
             }
             Cause::Light => String::new(),
         };

@@ -3,6 +3,9 @@
 use crate::polygon::cut;
 use glam::DVec3;
 
+/// Most corners of a face: cutting a concave one takes time that grows with their square.
+pub(crate) const MAX_CORNERS: usize = 16384;
+
 /// The places of the corners of each triangle; they run round as the face does.
 ///
 /// A face is seen along its mean normal (Newell's). One that crosses itself there has no inside, and is cut into a fan.

@@ -5,7 +5,7 @@
 //! Read by hand, as every fault must name its line and value.
 
 use super::mtl::{self, Library};
-use super::{Face, FaceData, MAX_POSITION, Material, Mesh, triangles};
+use super::{Face, FaceData, MAX_CORNERS, MAX_POSITION, Material, Mesh, triangles};
 use crate::error::InputError;
 use crate::file;
 use crate::text::{Place, each_line, rest, words};
@@ -100,9 +100,10 @@ impl Obj {
 
     fn polygon<'a>(&mut self, place: Place, words: impl Iterator<Item = &'a [u8]>) -> Result<(), InputError> {
         let corners = words.map(|word| self.corner(place, word)).collect::<Result<Vec<_>, _>>()?;
-        if corners.len() < 3 {
+        if !(3..=MAX_CORNERS).contains(&corners.len()) {
             let found = format!("{} corners", corners.len());
-            return Err(place.fault("f", found.as_bytes(), "permitted: at least 3 corners").into());
+            let permitted = format!("permitted: 3 to {MAX_CORNERS} corners; cut the face into smaller ones");
+            return Err(place.fault("f", found.as_bytes(), permitted).into());
         }
         let positions: Vec<_> = corners.iter().map(|c| self.positions[c.position as usize]).collect();
         for (number, part) in triangles(&positions).into_iter().enumerate() {

@@ -89,8 +89,9 @@ fn listed(table: &Table) -> Result<Mesh, InputError> {
     let uv = table.pairs("uv", positions.len(), MAX_TEXTURE)?;
     let (mut faces, mut face_data) = (Vec::new(), Vec::new());
     for corners in table.indices("faces", positions.len())?.unwrap_or_default() {
-        if corners.len() < 3 {
-            let permitted = "permitted: at least 3 places a face";
+        if !(3..=mesh::MAX_CORNERS).contains(&corners.len()) {
+            let permitted =
+                format!("permitted: 3 to {} places a face; cut it into smaller ones", mesh::MAX_CORNERS);
             return Err(table.fault("faces", format!("{} places", corners.len()), permitted));
         }
         let places: Vec<_> = corners.iter().map(|corner| positions[*corner as usize]).collect();
