@@ -24,7 +24,9 @@ pub fn time(job: &Job, folder: &Path) -> Result<Times> {
         let words = words.flat_map(|word| word.to_le_bytes().into_iter().take(bytes));
         std::fs::write(folder.join(format!("memory{i}.bin")), words.collect::<Vec<u8>>())?;
     }
-    let mut machine = Command::new(folder.join("obj_dir/Vmachine"));
+    let program = folder.join("obj_dir/Vmachine");
+    std::fs::metadata(&program).map_err(|error| Stop::unwritten("verilator", &program, &error))?;
+    let mut machine = Command::new(program);
     machine.current_dir(folder).arg("stimulus.bin").arg((job.repeat + 1).to_string());
     machine.args(job.constants()?.iter().map(ToString::to_string));
     let text = run(&mut machine, Duration::MAX)?;

@@ -7,6 +7,7 @@ use edgewalk_host::port::PortFrame;
 use edgewalk_machine::{Counted, Plan};
 use edgewalk_model::{Counters, Pass};
 use edgewalk_netlist::{BitBlocks, Simulator};
+use edgewalk_scene::inputs;
 use edgewalk_synth::{
     Cache, Design, GateRun, Gates, Library, Part, Placeless, Power, UNSETTLED, gates, power,
 };
@@ -42,7 +43,10 @@ impl CellEnergy {
     /// No usable library, or a folder that cannot be written.
     pub fn new(library: Option<&Path>, cache: Option<&Path>, limit: u64) -> Result<CellEnergy> {
         let library = match library {
-            Some(file) => Library::read(file).context("--library")?,
+            Some(file) => {
+                inputs::note(file);
+                Library::read(file).context("--library")?
+            }
             None => Library::installed()?,
         };
         let folder = cache_folder(cache)?;

@@ -1,7 +1,7 @@
 //! `edgewalk estimate`: its counts beside the measured ones, the table of errors in the page, and its error messages.
 #![allow(clippy::unwrap_used)] // a test that unwraps nothing reports it
 
-use crate::support::{edgewalk, run};
+use crate::support::{edgewalk, ended, run};
 use serde_json::Value;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -251,15 +251,15 @@ fn a_fit_of_another_table_is_refused() {
             "ice40",
             "ice40.csv",
             "./ice40.csv",
-            "--fit ./ice40.csv: this file is the input ice40.csv; permitted: ",
+            "--fit ./ice40.csv: --data ice40.csv is the same file; permitted: ",
         ),
         (
             "ice40",
             "ice40.csv",
             "machines.txt",
-            "--fit machines.txt: this file is the input machines.txt; permitted: ",
+            "--fit machines.txt: --machines machines.txt is the same file; permitted: ",
         ),
-        ("ice40", "new.csv", "new.csv", "--fit new.csv: --data new.csv is the same file; permitted: "),
+        ("ice40", "new.csv", "./new.csv", "--fit ./new.csv: --data new.csv is the same file; permitted: "),
     ];
     for (family, table, fit, why) in cases {
         let before = std::fs::read(at(fit)).ok();
@@ -270,6 +270,22 @@ fn a_fit_of_another_table_is_refused() {
         assert!(!said.contains('%'), "{said}");
         assert_eq!(std::fs::read(at(fit)).ok(), before, "{words:?}");
     }
+    // Rows of single units are all held out, which is said before a tool runs.
+    let unit =
+        ["calibrate", "--machines", "machines.txt", "--unit", "depth", "--count", "1", "--fit", "f.json"];
+    for (words, why) in [
+        (&["--data", "new.csv"][..], "new.csv: all rows are held out, so nothing can be fitted; permitted: "),
+        (
+            &["--data", "new.csv", "--family", "osu018"],
+            "--unit: the family osu018 has rows of whole machines; ",
+        ),
+    ] {
+        let mut command = edgewalk(folder.path(), &[&unit[..], words].concat());
+        let (code, said) = ended(&command.env("PATH", "nowhere").output().unwrap());
+        assert!(code == Some(2) && said.contains(why), "{why}: {said}");
+        assert!(said.ends_with("leave --unit out\n") || said.contains("--count N without --unit"), "{said}");
+    }
+    assert!(!at("new.csv").exists());
 }
 
 #[test]

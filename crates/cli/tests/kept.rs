@@ -14,28 +14,44 @@ fn inputs_stay_as_they_are() {
     let machine = edgewalk(folder.path(), &["config", "print"]).output().unwrap().stdout;
     fs::write(at("m.toml"), &machine).unwrap();
     fs::create_dir(at("under")).unwrap();
-    let cases: [(&[&str], &str, &str); 5] = [
-        (&["compare", "default", "small", "a.tri", "--page", "a.tri"], "a.tri", "--page a.tri"),
+    fs::copy("/usr/share/qflow/tech/osu018/osu018_stdcells.lib", at("a.lib")).unwrap();
+    let cases: [(&[&str], &str, &str); 6] = [
+        (
+            &[
+                "compare",
+                "default",
+                "small",
+                "a.tri",
+                "--energy",
+                "1",
+                "--library",
+                "a.lib",
+                "--page",
+                "a.lib",
+            ],
+            "a.lib",
+            "--page a.lib: ./a.lib",
+        ),
+        (&["compare", "default", "small", "a.tri", "--page", "a.tri"], "a.tri", "--page a.tri: ./a.tri"),
         (
             &["compare", "default", "small", "a.tri", "--page", "under/../a.tri"],
             "a.tri",
-            "--page under/../a.tri",
+            "--page under/../a.tri: under/../a.tri",
         ),
         (
             &["compare", "default", "m.toml,setup.lanes=1:constant", "a.obj", "--page", "m.toml"],
             "m.toml",
-            "--page m.toml",
+            "--page m.toml: ./m.toml",
         ),
-        (&["triangles", "a.obj", "--out", "a.obj"], "a.obj", "--out a.obj"),
-        (&["triangles", "a.tri", "--out", "./a.tri"], "a.tri", "--out ./a.tri"),
+        (&["triangles", "a.obj", "--out", "a.obj"], "a.obj", "./a.obj"),
+        (&["triangles", "a.tri", "--out", "./a.tri"], "a.tri", "./a.tri"),
     ];
-    for (words, file, option) in cases {
+    for (words, file, shown) in cases {
         let before = fs::read(at(file)).unwrap();
         let (code, error) = ended(&edgewalk(folder.path(), words).output().unwrap());
         assert_eq!(code, Some(2), "{words:?}: {error}");
-        let said = format!(
-            "{option}: this file is the input {file}; permitted: a file that the command does not read; give"
-        );
+        let said =
+            format!("{shown}: this run reads this file, and would replace or remove it; permitted: a place");
         assert!(error.contains(&said), "{words:?}: {error}");
         assert_eq!(fs::read(at(file)).unwrap(), before, "{words:?}");
     }
@@ -126,6 +142,19 @@ fn a_link_to_an_input_is_replaced() {
     assert_eq!(ended(&run).0, Some(0));
     assert_eq!(fs::read(folder.path().join("my.toml")).unwrap(), machine);
     assert!(!fs::symlink_metadata(folder.path().join("hw/machine.toml")).unwrap().is_symlink());
+    // So does a link that an option for a single file names.
+    let at = |name: &str| folder.path().join(name);
+    fs::write(at("a.tri"), TRIANGLE).unwrap();
+    for words in
+        [&["triangles", "a.tri", "--out", "t"][..], &["compare", "default", "small", "a.tri", "--page", "t"]]
+    {
+        _ = fs::remove_file(at("t"));
+        std::os::unix::fs::symlink("a.tri", at("t")).unwrap();
+        let (code, error) = ended(&edgewalk(folder.path(), words).output().unwrap());
+        assert_eq!(code, Some(0), "{words:?}: {error}");
+        assert!(!fs::symlink_metadata(at("t")).unwrap().is_symlink(), "{words:?}");
+        assert_eq!(fs::read_to_string(at("a.tri")).unwrap(), TRIANGLE, "{words:?}");
+    }
 }
 
 /// A sweep that would replace the machine it begins with says so before it draws anything.

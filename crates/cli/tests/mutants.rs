@@ -1,12 +1,13 @@
 //! `edgewalk mutants`: single faults of our Verilog through a bench of the user's, by its command.
 
-use crate::support::edgewalk;
+use crate::support::{edgewalk, ended};
 use edgewalk_machine::Plan;
 use edgewalk_netlist::mutate::mutants;
 use edgewalk_vectors::{Runs, Suite, Unit, design};
 use serde_json::Value;
 use std::collections::BTreeSet;
 use std::fs;
+use std::os::unix::fs::PermissionsExt as _;
 use std::path::Path;
 
 fn run(folder: &Path, arguments: &[&str]) -> (Option<i32>, String, String) {
@@ -130,6 +131,23 @@ fn survivors_are_shown_or_proved() {
     println!("{shown} shown, {proved} proved to change nothing");
     assert_eq!((&report["found"], &report["proved_equivalent"]), (&Value::from(0), &Value::from(proved)));
     assert!(shown + proved == 14 && shown >= 8 && proved >= 1, "{report}");
+}
+
+/// Where the disk is full Yosys writes a part of the prover's file and ends as if all were well.
+#[test]
+fn a_part_of_a_problem_proves_nothing() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let yosys = folder.path().join("yosys");
+    let path = std::env::var("PATH").expect("a text");
+    let cut = "truncate -s 40 miter.aig";
+    fs::write(&yosys, format!("#!/bin/sh\nPATH='{path}' yosys \"$@\" || exit\n{cut}\n")).expect("written");
+    fs::set_permissions(&yosys, fs::Permissions::from_mode(0o755)).expect("permitted");
+    let arguments =
+        ["mutants", "--unit", "span", "--bench", "true", "--sample", "14", "--seed", "1", "--prove"];
+    let mut command = edgewalk(folder.path(), &arguments);
+    command.env("PATH", format!("{}:{path}", folder.path().display()));
+    let (code, error) = ended(&command.output().expect("a program"));
+    assert!(code == Some(3) && error.contains("yosys failed:\nits miter.aig ends early"), "{error}");
 }
 
 /// Faults and verdicts that are kept in a folder, in the order in which they were tried.

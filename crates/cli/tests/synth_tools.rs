@@ -1,7 +1,7 @@
 //! `edgewalk synth` with tools that print what the test wants: each figure of the report beside the outputs it comes from.
 #![allow(clippy::unwrap_used)] // a test that unwraps nothing reports it
 
-use crate::support::edgewalk;
+use crate::support::{TRIANGLE, edgewalk, ended};
 use serde_json::{Value, json};
 use std::os::unix::fs::PermissionsExt as _;
 use std::path::Path;
@@ -191,7 +191,58 @@ fn an_output_that_cannot_be_read_gives_no_figure() {
     let output = synth(folder.path(), &SPAN);
     let said = String::from_utf8_lossy(&output.stderr);
     assert_eq!(output.status.code(), Some(3), "{said}");
-    assert!(said.contains("its statistics cannot be read"), "{said}");
+    assert!(said.contains("its stat.json cannot be read"), "{said}");
+}
+
+/// Where the disk is full a tool cuts its files, or writes none, and ends as if all were well.
+#[test]
+fn files_that_a_tool_cuts_are_not_kept() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = folder.path();
+    tools(at);
+    let counts = |told: &Value| [&told["cached"], &told["run"]].map(|count| count.as_u64().unwrap());
+    let first = report(at, &SPAN);
+    // What is in the cache and cannot be read is made anew.
+    let kept: Vec<_> = std::fs::read_dir(at.join("cache"))
+        .unwrap()
+        .flat_map(|step| std::fs::read_dir(step.unwrap().path()).unwrap())
+        .collect();
+    assert_eq!(kept.len(), 8);
+    for file in kept {
+        let file = std::fs::OpenOptions::new().write(true).open(file.unwrap().path()).unwrap();
+        file.set_len(file.metadata().unwrap().len() - 3).unwrap();
+    }
+    let again = report(at, &SPAN);
+    assert_eq!((counts(&again), &again["targets"]), ([0, 7], &first["targets"]));
+    assert_eq!(counts(&report(at, &SPAN)), [7, 0]);
+
+    let yosys = std::fs::read_to_string(at.join("tools/yosys")).unwrap();
+    for (cut, said) in [
+        ("", "yosys failed:\nit wrote no netlist.json"),
+        (": > stat.json", "yosys failed:\nits stat.json cannot be read: EOF"),
+        (
+            "cp stat.json netlist.json; : > netlist.json",
+            "yosys failed:\nits netlist.json cannot be read: EOF",
+        ),
+    ] {
+        let writes = if cut.is_empty() { "exit" } else { "true" };
+        let script = yosys.replace("\ncp ", &format!("\n{writes}\ncp ")) + cut;
+        tool(at, "yosys", script.trim_start_matches("#!/bin/sh\n"));
+        version(at, "yosys", said);
+        let (code, error) = ended(&synth(at, &SPAN));
+        assert!(code == Some(3) && error.contains(said), "{error}");
+    }
+    // The gates of standard cells come from Yosys too.
+    tool(at, "yosys", "echo yosys");
+    std::fs::write(at.join("a.tri"), TRIANGLE).unwrap();
+    let path = format!("{}:{}", at.join("tools").display(), std::env::var("PATH").unwrap());
+    let words = ["energy", "a.tri", "--machine", "small", "--cache", "cache"];
+    let (code, error) = ended(&edgewalk(at, &words).env("PATH", path).output().unwrap());
+    assert!(code == Some(3) && error.contains("yosys failed:\nit wrote no gates.json"), "{error}");
+    // What was cut is made by the tools that write whole files.
+    std::fs::write(at.join("tools/yosys"), yosys).unwrap();
+    let whole = report(at, &SPAN);
+    assert_eq!(whole["targets"][0]["cells"], first["targets"][0]["cells"]);
 }
 
 /// Words x bits, ports and rate of each memory outside the machine, and what of them the devices hold.

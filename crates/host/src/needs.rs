@@ -92,14 +92,27 @@ pub struct NotMet {
 
 impl std::error::Error for NotMet {}
 
-impl fmt::Display for NotMet {
-    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+impl NotMet {
+    /// What was found, and the settings that meet it.
+    fn met_by_settings(&self) -> String {
         let settings: Vec<String> =
             self.settings.iter().map(|(key, value)| format!("--set {key}={value}")).collect();
-        let golden = if self.by_golden { ", or draw with --engine golden" } else { "" };
-        let settings = settings.join(" ");
-        write!(f, "{}; give {settings}, or --adapt, which sets the keys that are not given{golden}", self.why)
+        format!("{}; give {}", self.why, settings.join(" "))
     }
+}
+
+impl fmt::Display for NotMet {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        let golden = if self.by_golden { ", or draw with --engine golden" } else { "" };
+        let settings = self.met_by_settings();
+        write!(f, "{settings}, or --adapt, which sets the keys that are not given{golden}")
+    }
+}
+
+/// The reason why a machine of many does not draw an input: commands that run many have --set, but neither --adapt nor --engine.
+#[must_use]
+pub fn reason(error: &anyhow::Error) -> String {
+    error.downcast_ref().map_or_else(|| format!("{error:#}"), NotMet::met_by_settings)
 }
 
 /// BLEND, and one k_t for a triangle or more; a machine with a screen door mixes by that.

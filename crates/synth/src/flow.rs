@@ -1,6 +1,6 @@
 //! The tools one after another, for a design on a device.
 
-use crate::cache::Cache;
+use crate::cache::{Cache, text, unreadable};
 use crate::cells::{Cells, Statistics};
 use crate::design::Design;
 use crate::harness;
@@ -11,6 +11,7 @@ use crate::target::Target;
 use crate::timing::{Timing, timing};
 use edgewalk_tool::{Stop, run};
 use rayon::prelude::*;
+use serde::de::IgnoredAny;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::time::Duration;
@@ -99,9 +100,8 @@ impl Job<'_> {
              read_verilog {module}.v {around}.v; blackbox {module}; {synth} -top {around}; delete ={module}; \
              design -copy-from part ={module}; hierarchy -check -top {around}; flatten; write_json {NETLIST}"
         );
-        let folder = self.synthesis(&script, &[STATISTICS, NETLIST])?;
-        let cells = Statistics::read(&text(&folder.join(STATISTICS))?)?.module(module)?;
-        Ok((cells, folder.join(NETLIST)))
+        let (folder, statistics) = self.synthesis(&script, &[STATISTICS, NETLIST])?;
+        Ok((statistics.module(module)?, folder.join(NETLIST)))
     }
 
     /// The cells of each unit, with nothing optimised over the borders of modules.
@@ -112,8 +112,7 @@ impl Job<'_> {
         }
         let (module, synth) = (&self.design.module, self.target.synth);
         let script = format!("{synth} -noflatten -top {module}; tee -q -o {STATISTICS} stat -json");
-        let folder = self.synthesis(&script, &[STATISTICS])?;
-        let statistics = Statistics::read(&text(&folder.join(STATISTICS))?)?;
+        let (_, statistics) = self.synthesis(&script, &[STATISTICS])?;
         let of = |(unit, module): &(String, String)| {
             Ok(UnitCells { unit: unit.clone(), cells: statistics.module(module)? })
         };
@@ -122,9 +121,10 @@ impl Job<'_> {
         Ok(units)
     }
 
-    fn synthesis(&self, script: &str, keep: &[&str]) -> Result<PathBuf, Stop> {
+    /// A run of Yosys that leaves statistics, and a netlist where that is to be kept too.
+    fn synthesis(&self, script: &str, keep: &[&str]) -> Result<(PathBuf, Statistics), Stop> {
         let Job { flow, design, target, .. } = self;
-        let folder = flow.cache.step(&[&design.hash, &self.yosys, script], keep, |folder| {
+        let work = |folder: &Path| {
             for (name, verilog) in &design.files {
                 std::fs::write(folder.join(name), verilog)
                     .map_err(|error| Stop::file(&folder.join(name), &error))?;
@@ -132,9 +132,18 @@ impl Job<'_> {
             let script = format!("read_verilog {}; {script}", design.sources().collect::<Vec<_>>().join(" "));
             run(Command::new(target.yosys).args(["-q", "-p", &script]).current_dir(folder), flow.limit)
                 .map(drop)
+        };
+        let found = flow.cache.step(&[&design.hash, &self.yosys, script], keep, work, |folder| {
+            let unread = |file: &str, error| unreadable(target.yosys, file, error);
+            if keep.contains(&NETLIST) {
+                serde_json::from_str::<IgnoredAny>(&text(target.yosys, &folder.join(NETLIST))?)
+                    .map_err(|error| unread(NETLIST, error))?;
+            }
+            Statistics::read(&text(target.yosys, &folder.join(STATISTICS))?)
+                .map_err(|error| unread(STATISTICS, error))
         });
         (flow.done)();
-        folder
+        found
     }
 
     /// Packs, then places and routes with every seed.
@@ -173,46 +182,46 @@ impl Job<'_> {
     fn pack(&self, netlist: &Path, version: &str) -> Result<Packed, Stop> {
         let Job { flow, target, .. } = self;
         let options = ["--pack-only", "--write", NETLIST, "--report", REPORT];
-        let folder = self.placement(netlist, version, &options, &[PACKED], |folder| {
-            let (written, report) = (text(&folder.join(NETLIST))?, text(&folder.join(REPORT))?);
-            let unreadable = |error: serde_json::Error| Stop::broken(target.nextpnr, &error.into());
-            let packed = packed(target.packed, &written, &report).map_err(unreadable)?;
-            let packed = serde_json::to_string(&packed).map_err(unreadable)?;
-            std::fs::write(folder.join(PACKED), packed)
-                .map_err(|error| Stop::file(&folder.join(PACKED), &error))
-        });
+        let then = |folder: &Path| {
+            let tool = target.nextpnr;
+            let (written, report) = (text(tool, &folder.join(NETLIST))?, text(tool, &folder.join(REPORT))?);
+            let packed = packed(target.packed, &written, &report)
+                .map_err(|error| unreadable(tool, &format!("{NETLIST} or {REPORT}"), error))?;
+            let said = |error: std::io::Error| Stop::file(&folder.join(PACKED), &error);
+            let packed = serde_json::to_string(&packed).map_err(|error| said(error.into()))?;
+            std::fs::write(folder.join(PACKED), packed).map_err(said)
+        };
+        let packed =
+            self.placement(netlist, version, &options, PACKED, then, |json| serde_json::from_str(json));
         (flow.done)();
-        serde_json::from_str(&text(&folder?.join(PACKED))?)
-            .map_err(|error| Stop::broken(PACKED, &error.into()))
+        packed
     }
 
     fn seed(&self, netlist: &Path, version: &str, seed: u32) -> Result<Timing, Stop> {
         let number = seed.to_string();
         let options = ["--seed", &number, "--timing-allow-fail", "--report", REPORT];
-        let folder = self.placement(netlist, version, &options, &[REPORT], |_| Ok(()));
+        let found = self.placement(netlist, version, &options, REPORT, |_| Ok(()), |json| timing(seed, json));
         (self.flow.done)();
-        let report = text(&folder?.join(REPORT))?;
-        let timing =
-            timing(seed, &report).map_err(|error| Stop::broken(self.target.nextpnr, &error.into()))?;
-        timing.ok_or_else(|| Stop::Broken {
+        found?.ok_or_else(|| Stop::Broken {
             tool: self.target.nextpnr.to_owned(),
             lines: vec!["it tells of no path from register to register".to_owned()],
         })
     }
 
-    /// A run of nextpnr.
-    fn placement(
+    /// A run of nextpnr, and what follows; of it one file is kept and read.
+    fn placement<T>(
         &self,
         netlist: &Path,
         version: &str,
         options: &[&str],
-        keep: &[&str],
+        keep: &str,
         then: impl FnOnce(&Path) -> Result<(), Stop>,
-    ) -> Result<PathBuf, Stop> {
+        read: impl Fn(&str) -> serde_json::Result<T>,
+    ) -> Result<T, Stop> {
         let Job { flow, design, target, yosys } = self;
         let mut key = vec![&*design.hash, yosys, target.name, target.synth, version];
         key.extend(target.options.iter().chain(options));
-        flow.cache.step(&key, keep, |folder| {
+        let work = |folder: &Path| {
             // Beside the output: not every nextpnr sees the whole file system.
             const INPUT: &str = "input.json";
             std::fs::copy(netlist, folder.join(INPUT))
@@ -221,10 +230,11 @@ impl Job<'_> {
             command.args(["-q", "--json", INPUT]).args(target.options).args(options);
             run(command.current_dir(folder), flow.limit)?;
             then(folder)
-        })
+        };
+        let read = |folder: &Path| {
+            read(&text(target.nextpnr, &folder.join(keep))?)
+                .map_err(|error| unreadable(target.nextpnr, keep, error))
+        };
+        flow.cache.step(&key, &[keep], work, read).map(|(_, found)| found)
     }
-}
-
-fn text(path: &Path) -> Result<String, Stop> {
-    std::fs::read_to_string(path).map_err(|error| Stop::broken(&path.display().to_string(), &error))
 }

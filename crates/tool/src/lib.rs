@@ -63,6 +63,16 @@ impl Stop {
         Stop::Broken { tool: tool.to_owned(), lines: vec![error.to_string()] }
     }
 
+    /// Why a file that a tool should have written cannot be opened: the tool is broken where it wrote none.
+    #[must_use]
+    pub fn unwritten(tool: &str, file: &Path, error: &std::io::Error) -> Stop {
+        if error.kind() != std::io::ErrorKind::NotFound {
+            return Stop::file(file, error);
+        }
+        let name = file.file_name().unwrap_or_default().display();
+        Stop::Broken { tool: tool.to_owned(), lines: vec![format!("it wrote no {name}")] }
+    }
+
     /// What the system says of a file.
     #[must_use]
     pub fn file(file: &Path, error: &std::io::Error) -> Stop {

@@ -7,19 +7,20 @@
 mod gates;
 
 use super::estimate::{FAMILY, family};
+use crate::Talk;
 use crate::cost::cache_folder;
 use crate::document::document;
 use crate::machine_args::MachineArgs;
 use crate::number::whole;
 use crate::progress;
 use crate::verdict::Verdict;
-use crate::{Talk, kept};
 use anyhow::{Context, Result, anyhow, ensure};
 use edgewalk_files::Scratch;
 use edgewalk_machine::Plan;
 use edgewalk_synth::estimate::{Delays, Fit, Kept, Measured, Sample, Structure};
 use edgewalk_synth::{Cache, Design, Flow, Fpga, Part, Target};
 use rayon::prelude::*;
+use std::fs::canonicalize;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
@@ -99,6 +100,10 @@ pub fn run(args: &Args, talk: Talk) -> Result<Verdict> {
     };
     let cache = scratch.as_ref().map(|(cache, _)| cache);
     let Some(family) = fpga else {
+        ensure!(
+            args.unit.is_none(),
+            "--unit: the family {FAMILY} has rows of whole machines; permitted: the other families; leave --unit out"
+        );
         let limit = Duration::from_secs(args.limit);
         let bench = cache.map(|cache| gates::Bench { cache, limit });
         return gates::run(&lines[..args.count], bench.as_ref(), [&data, &fitted], talk);
@@ -106,6 +111,12 @@ pub fn run(args: &Args, talk: Talk) -> Result<Verdict> {
     let table = if data.exists() { read(&data)? } else { String::new() };
     let mut rows = Measured::rows(&table).map_err(|why| anyhow!("{}: {why}", data.display()))?;
     of_one_family(&rows, family, &data)?;
+    if let (Some(unit), 1..) = (&args.unit, args.count) {
+        // Rows of --unit are all held out; a machine's are such as a fit is checked by.
+        let machine = |part: &str| part == Part::MACHINE.name();
+        let there = rows.iter().filter(|row| row.held_out && machine(&row.part)).count();
+        both(&data, there + usize::from(machine(unit)), rows.iter().all(|row| row.held_out))?;
+    }
     let bar = progress::bar(args.count as u64, "machines", talk.quiet);
     if let Some(cache) = cache {
         let bench = Bench { args, cache, target: Target::measured(family) };
@@ -180,15 +191,25 @@ impl Report {
 
 /// Refuses files of which one would replace another.
 fn apart(args: &Args, data: &Path, fitted: &Path) -> Result<()> {
-    kept::none_of("--data", data, [&args.machines])?;
-    kept::none_of("--fit", fitted, [data, &args.machines])?;
-    // A table that is not there yet has no place on the disk.
-    ensure!(
-        data != fitted,
-        "--fit {0}: --data {0} is the same file; permitted: two files; give another name",
-        data.display()
-    );
+    let [list, table, fit] = [("--machines", &*args.machines), ("--data", data), ("--fit", fitted)];
+    for ((option, file), (other, input)) in [(table, list), (fit, list), (fit, table)] {
+        ensure!(
+            place(file).is_none() || place(file) != place(input),
+            "{option} {}: {other} {} is the same file; permitted: two files; give another name",
+            file.display(),
+            input.display()
+        );
+    }
     Ok(())
+}
+
+/// Where a file is, or would be; none where its folder is not there.
+fn place(file: &Path) -> Option<PathBuf> {
+    let would_be = || {
+        let folder = file.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(".".as_ref());
+        Some(canonicalize(folder).ok()?.join(file.file_name()?))
+    };
+    canonicalize(file).ok().or_else(would_be)
 }
 
 /// Refuses rows that the tools of another family made.
@@ -216,7 +237,7 @@ fn both(data: &Path, held_out: usize, all_held_out: bool) -> Result<()> {
         _ => return Ok(()),
     };
     Err(anyhow!(
-        "{}: {lacks}; permitted: rows of machines with held_out = {held} too; add --count N, which holds every second machine out",
+        "{}: {lacks}; permitted: rows of machines with held_out = {held} too; add --count N without --unit, which holds every second machine out",
         data.display()
     ))
 }

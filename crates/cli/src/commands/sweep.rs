@@ -266,11 +266,9 @@ impl What {
 
 /// Runs what is missing, then writes what follows from all rows.
 fn swept(sweep: &Sweep, out: &Path, again: &[Status], tools: &ToolArgs, talk: Talk) -> Result<Verdict> {
-    let path = out.join(ROWS);
     let (store, rows) = begun(sweep, out)?;
     let all = sweep.points.iter().collect::<Vec<_>>();
-    let made = points(sweep, &all, (&store, store::by_key(rows)), again, tools, talk)
-        .with_context(|| path.display().to_string())?;
+    let made = points(sweep, &all, (&store, store::by_key(rows)), again, tools, talk)?;
     finished(sweep, out, made, talk)
 }
 
@@ -283,14 +281,12 @@ fn searched(
     tools: &ToolArgs,
     talk: Talk,
 ) -> Result<Verdict> {
-    let path = out.join(ROWS);
     let (store, rows) = begun(&sweep, out)?;
     let (mut rows, mut made) = (store::by_key(rows), 0);
     while let Some(places) = hunt.next(&mut sweep, &rows) {
         let of: Vec<&Point> = places.iter().map(|place| &sweep.points[*place]).collect();
-        made += points(&sweep, &of, (&store, rows), again, tools, talk)
-            .with_context(|| path.display().to_string())?;
-        rows = store::by_key(store::read(&path)?);
+        made += points(&sweep, &of, (&store, rows), again, tools, talk)?;
+        rows = store::by_key(store::read(store.path())?);
     }
     finished(&sweep, out, made, talk)
 }
@@ -304,7 +300,7 @@ fn points(
     tools: &ToolArgs,
     talk: Talk,
 ) -> Result<usize> {
-    check(sweep, &rows).map_err(|why| anyhow!("{why}"))?;
+    check(sweep, &rows).map_err(|why| anyhow!("{}: {why}", store.path().display()))?;
     let todo = missing(sweep, of, &rows, again);
     let synthesiser = sweep.definition.synth.as_ref().map(|of| Synthesiser::new(of, tools)).transpose()?;
     if let (Some(synthesiser), false) = (&synthesiser, todo.is_empty()) {
@@ -380,5 +376,5 @@ fn finished(sweep: &Sweep, out: &Path, made: usize, talk: Talk) -> Result<Verdic
     let outcome = Outcome::new(sweep, &rows, out, made);
     outcome.publish(talk)?;
     talk.say(|| outcome.json(), || outcome.text())?;
-    Ok(outcome.verdict())
+    outcome.verdict()
 }

@@ -33,9 +33,6 @@ pub struct Args {
 /// Runs the command.
 pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
     let to_output = args.out == Path::new(InputKind::STANDARD_INPUT);
-    if !to_output {
-        kept::none_of("--out", &args.out, [args.source.input.as_str()])?;
-    }
     ensure!(
         !to_output || !talk.json,
         "--out - --json: the standard output takes one of the triangle file and the JSON document; give --out a file, or leave \

@@ -142,3 +142,14 @@ fn search_ends_where_no_other_machine_is_found() {
     let sample = told(at, &[&["a.tri", "--sample", "32", "--out", "t"], &VARY[..], &wide].concat());
     assert_eq!((&sample["machines"], keys(&at.join("t"))), (&12.into(), keys(&at.join("s"))));
 }
+
+#[test]
+fn a_reason_names_no_option_of_other_commands() {
+    let folder = inputs();
+    let output = edgewalk(folder.path(), &["sweep", "a.tri", "--vary", "shade.kind=phong", "--out", "s"])
+        .output()
+        .unwrap();
+    let text = String::from_utf8(output.stdout).unwrap();
+    let reason = text.lines().find(|line| line.starts_with("first failed: ")).unwrap();
+    assert!(reason.ends_with("; give --set shade.kind=none"), "{reason}");
+}

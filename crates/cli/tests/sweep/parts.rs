@@ -4,6 +4,7 @@ use super::{keys, rows};
 use crate::support::{TRIANGLE, edgewalk, names, run};
 use serde_json::Value;
 use std::os::unix::fs::PermissionsExt;
+use std::path::Path;
 use std::process::Command;
 
 const VARY: [&str; 5] =
@@ -120,24 +121,34 @@ fn the_job_scripts_run_every_part() {
     std::fs::set_permissions(at.join("hq"), std::fs::Permissions::from_mode(0o755)).unwrap();
     std::fs::write(at.join("a.tri"), "size 64 48\nT 0 0 0 1 0 0 0  60 0 0 0 1 0 0  0 40 1 0 0 1 0\n")
         .unwrap();
-    let path = format!("{}:{}", at.display(), std::env::var("PATH").unwrap());
-    // A shell has to see folders with spaces and quotes as they are.
-    let jobs = [("it's Slurm", "slurm.sh", &["0", "1", "2"][..]), ("it's HQ", "hq.sh", &["none"])];
+    std::os::unix::fs::symlink("/bin/sh", at.join("sbatch")).unwrap();
+    let program = Path::new(env!("CARGO_BIN_EXE_edgewalk")).parent().unwrap();
+    let path = format!("{}:{}:{}", at.display(), program.display(), std::env::var("PATH").unwrap());
+    // A shell has to see folders with spaces, quotes and hyphens as they are.
+    let jobs = [
+        ("it's Slurm", "sbatch", &["0", "1", "2"][..]),
+        ("it's HQ", "sh", &["none"]),
+        ("-x", "sbatch", &["0", "1", "2"]),
+        ("-y", "sh", &["none"]),
+    ];
     for (out, script, tasks) in jobs {
-        let plan =
-            ["sweep", "plan", "a.tri", "--vary", "interpolator.adders=1..4", "--chunks", "3", "--quiet"];
-        assert_eq!(run(at, &[&plan[..], &["--out", out]].concat()), (Some(0), String::new()));
-        for task in tasks {
+        let plan = ["sweep", "plan", "a.tri", "--vary", "interpolator.adders=1..4", "--chunks", "3"];
+        let planned = edgewalk(at, &[&plan[..], &[&*format!("--out={out}")]].concat()).output().unwrap();
+        let told = String::from_utf8(planned.stdout).unwrap();
+        // The commands are those that `plan` prints.
+        let pasted = |command: &str, task: &str| {
+            let line = told.lines().find(|line| line.trim().starts_with(command)).unwrap();
             let mut job = Command::new("sh");
-            job.arg(format!("{out}/{script}")).current_dir(at).env("PATH", &path);
+            job.args(["-c", line]).current_dir(at).env("PATH", &path);
             job.env_remove("SLURM_ARRAY_TASK_ID").env_remove("HQ_TASK_ID");
-            if script == "slurm.sh" {
+            if command == "sbatch" {
                 job.env("SLURM_ARRAY_TASK_ID", task);
             }
             let done = job.output().unwrap();
-            assert!(done.status.success(), "{script}: {}", String::from_utf8_lossy(&done.stderr));
-        }
-        assert_eq!(run(at, &["sweep", "merge", "--quiet", "--out", out]), (Some(0), String::new()));
+            assert!(done.status.success(), "{line}: {}", String::from_utf8_lossy(&done.stderr));
+        };
+        tasks.iter().for_each(|task| pasted(script, task));
+        pasted("edgewalk sweep merge", "none");
         assert_eq!(keys(&at.join(out)).len(), 4, "{script}");
     }
 }

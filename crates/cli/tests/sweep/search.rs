@@ -125,6 +125,17 @@ fn a_search_is_never_called_exhaustive() {
         assert!(page.contains(&words.join(" ")), "the page's command is another");
         assert!(best.contains("looked at, not of all,"), "{best}");
     }
+    // Of so many combinations nobody looks which are the same machine.
+    let wide = [
+        "--vary",
+        "fifo.inflight=1..16",
+        "--vary",
+        "formats.color_fraction=4..16",
+        "--vary",
+        "memory.latency=1..4",
+    ];
+    let (_, text) = text(folder.path(), &[&wide[..], &["--sample", "2"]].concat(), "wide");
+    assert!(text.contains("not exhaustive: 2 of 1557504 combinations, seed 1"), "{text}");
     let (extent, text, page, best) = told(&[], "whole");
     assert_eq!((&extent["kind"], &extent["exhaustive"]), (&Value::from("whole"), &Value::from(true)));
     assert!(![text, page, best].iter().any(|of| of.contains("exhaustive") || of.contains("not of all")));
@@ -208,7 +219,12 @@ fn malformed_searches_are_refused() {
             [&["sweep", "plan", "a.tri", "--chunks", "2", "--search", "64"][..], &VARY].concat(),
             "not cut into parts",
         ),
-        ([&["sweep", "a.tri", "--search", "64"][..], &wide].concat(), "more than 2^63 machines"),
+        ([&["sweep", "a.tri", "--search", "64"][..], &wide].concat(), "more than 2^63 combinations"),
+        ([&["sweep", "a.tri", "--sample", "10"][..], &wide].concat(), "more than 2^63 combinations"),
+        (
+            [&["sweep", "plan", "a.tri", "--chunks", "2", "--sample", "10"][..], &wide].concat(),
+            "more than 2^63 combinations",
+        ),
         (
             [
                 &["sweep", "a.tri", "--search", "200000", "--stalls", "none", "--stalls", "dram"][..],

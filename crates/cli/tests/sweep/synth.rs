@@ -1,8 +1,9 @@
 //! A sweep with synthesis: cells and clock of each machine beside its errors, made once, null with the reason where there are none.
 
 use super::rows;
-use crate::support::{TRIANGLE, run};
+use crate::support::{TRIANGLE, edgewalk, ended, run};
 use std::collections::BTreeMap;
+use std::os::unix::fs::PermissionsExt as _;
 use std::path::{Path, PathBuf};
 use std::time::SystemTime;
 
@@ -87,7 +88,9 @@ fn what_could_not_be_synthesised_is_null_with_the_reason() {
     std::fs::write(at.join("a.tri"), TRIANGLE).unwrap();
     let sweep = ["sweep", "a.tri", "--vary", "fifo.span=2", "--out", "s", "--quiet"];
     let cells = ["--synth", "ice40-up5k", "--synth-unit", "setup", "--limit", "1", "--cache", "cache"];
-    _ = run(at, &[&sweep[..], &cells].concat());
+    let (code, error) = run(at, &[&sweep[..], &cells].concat());
+    let why = "the tools gave figures of no machine; the first reason: yosys was ended after 1 s";
+    assert!(code == Some(4) && error.contains(why), "{error}");
     let rows = rows(&at.join("s"));
     let [row] = &rows[..] else { panic!("one row") };
     assert!(row["status"] == "timeout" && row["reason"].as_str().unwrap().contains("1 s"), "{row}");
@@ -96,4 +99,37 @@ fn what_could_not_be_synthesised_is_null_with_the_reason() {
     let lines: Vec<Vec<&str>> = table.lines().map(|line| line.split(',').collect()).collect();
     let lut4 = lines[0].iter().position(|name| *name == "lut4").unwrap();
     assert_eq!(lines[1][lut4], "", "what is not known is empty");
+}
+
+#[test]
+fn a_tool_that_fails_is_no_empty_comparison() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = folder.path();
+    std::fs::write(at.join("a.tri"), TRIANGLE).unwrap();
+    let sweep = |cache: &str| {
+        let words =
+            ["sweep", "a.tri", "--vary", "fifo.span=1,2", "--synth", "ice40-hx8k", "--synth-unit", "depth"];
+        let rest = ["--synth-seeds", "1", "--out", "s", "--quiet", "--cache", cache];
+        let mut command = edgewalk(at, &[&words[..], &rest].concat());
+        ended(&command.env("PATH", at.join("tools")).output().unwrap())
+    };
+    // What has nothing to do with the rows does not name their file.
+    std::fs::create_dir(at.join("tools")).unwrap();
+    for (cache, code, why) in
+        [("cache", 3, "yosys is not installed; try: "), ("a.tri/c", 2, "--cache a.tri/c: ")]
+    {
+        let (found, error) = sweep(cache);
+        assert!(found == Some(code) && error.contains(why) && !error.contains("runs.jsonl"), "{error}");
+    }
+    for tool in ["yosys", "nextpnr-ice40"] {
+        let script = "#!/bin/sh\ncase \"$1\" in -V | --version) echo 1 ;; *) echo boom; exit 1 ;; esac\n";
+        std::fs::write(at.join("tools").join(tool), script).unwrap();
+        std::fs::set_permissions(at.join("tools").join(tool), std::fs::Permissions::from_mode(0o755))
+            .unwrap();
+    }
+    let why = "the tools gave figures of no machine; the first reason: yosys failed:\nboom";
+    let (code, error) = sweep("cache");
+    assert!(code == Some(3) && error.contains(why), "{error}");
+    // The same rows, without a run of a tool.
+    assert_eq!(sweep("cache"), (code, error));
 }

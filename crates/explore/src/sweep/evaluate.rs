@@ -7,6 +7,7 @@ use super::row::{Cost, Found, Status, with_figures, without_figures};
 use super::shared::{Geometry, Pixels, geometry_key, pixel_key, side_by_side};
 use super::store::Store;
 use anyhow::Result;
+use edgewalk_host::needs::reason;
 use edgewalk_host::port::to_port;
 use edgewalk_host::reach::{Reach, reach};
 use edgewalk_judge::compare::bounds_for_input;
@@ -116,7 +117,7 @@ impl Run<'_> {
         let input = &self.sweep.drawn(first).input;
         let geometry = match Geometry::new(input, plan, self.sweep.asks_equation()) {
             Ok(geometry) => geometry,
-            Err(why) => return self.all(points, Status::Failed, &format!("{why:#}")),
+            Err(why) => return self.all(points, Status::Failed, &reason(&why)),
         };
         let mut groups: BTreeMap<Vec<u32>, Vec<Planned>> = BTreeMap::new();
         for (point, plan) in points {
@@ -128,7 +129,7 @@ impl Run<'_> {
             match self.unwanted(&geometry, group[0].1, &mut reaches) {
                 Ok(Some(why)) => self.all(&group, Status::Pruned, &why)?,
                 Ok(None) => wanted.push(group),
-                Err(why) => self.all(&group, Status::Failed, &format!("{why:#}"))?,
+                Err(why) => self.all(&group, Status::Failed, &reason(&why))?,
             }
         }
         wanted.par_iter().with_max_len(1).try_for_each(|group| self.pixels(&geometry, group))
@@ -177,7 +178,7 @@ impl Run<'_> {
         }
         let pixels = match Pixels::new(geometry, points[0].1) {
             Ok(pixels) => pixels,
-            Err(why) => return self.all(points, Status::Failed, &format!("{why:#}")),
+            Err(why) => return self.all(points, Status::Failed, &reason(&why)),
         };
         let mut lanes: BTreeMap<u32, Vec<Planned>> = BTreeMap::new();
         for (point, plan) in points {
@@ -204,7 +205,7 @@ impl Run<'_> {
                 let found = Found { report, equation, estimate: self.estimate(point) };
                 with_figures(self.sweep, point, plan, found, self.around.cost)?
             }
-            Err(why) => without_figures(self.sweep, point, Status::Failed, &format!("{why:#}")),
+            Err(why) => without_figures(self.sweep, point, Status::Failed, &reason(&why)),
         };
         self.put(row, since)
     }

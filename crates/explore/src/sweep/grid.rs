@@ -91,6 +91,9 @@ impl Sweep {
         )?;
         let space = Space::new(&base, &axes);
         let whole = space.count();
+        if whole > u64::MAX / 2 {
+            return Err(anyhow!("--vary: more than 2^63 combinations; permitted: fewer; vary fewer keys"));
+        }
         let rows = definition.inputs.len() * memories.len();
         let chosen = match definition.search {
             Some(_) => {
@@ -249,9 +252,6 @@ fn check_search(of: &Definition, whole: u64, rows: u64) -> Result<()> {
     }
     if of.sample.is_some() {
         return says("a search takes no sample; leave --sample out".to_owned());
-    }
-    if whole > u64::MAX / 2 {
-        return says("more than 2^63 machines: permitted: fewer; vary fewer keys".to_owned());
     }
     if u64::from(points) >= whole {
         return says(format!("there are {whole} machines; leave --search out, and all of them are run"));

@@ -212,6 +212,7 @@ fn costs_of(sweep: &Sweep, machine: usize, reach: usize, rows: &BTreeMap<String,
 #[must_use]
 pub fn extent(sweep: &Sweep) -> Option<String> {
     let Sweep { definition, machines, whole, rounds, .. } = sweep;
+    let unit = sweep.space.unit();
     if let Some(Sample { seed, .. }) = definition.search {
         let mut reached: Vec<Round> = Vec::new();
         for round in rounds {
@@ -222,10 +223,10 @@ pub fn extent(sweep: &Sweep) -> Option<String> {
         }
         let reached = reached.iter().map(|round| format!("{} on {}", round.machines, round.inputs));
         return Some(format!(
-            "A search, not exhaustive: {machines} of {whole} machines, seed {seed}; machines on inputs: {}",
+            "A search, not exhaustive: {machines} of {whole} {unit}, seed {seed}; machines on inputs: {}",
             reached.collect::<Vec<_>>().join(", ")
         ));
     }
     let Sample { seed, .. } = definition.sample.filter(|_| (*machines as u64) < *whole)?;
-    Some(format!("A sample, not exhaustive: {machines} of {whole} machines, seed {seed}"))
+    Some(format!("A sample, not exhaustive: {machines} of {whole} {unit}, seed {seed}"))
 }

@@ -9,7 +9,7 @@ const MOST_LISTED: u64 = 1 << 20;
 
 /// All machines of a sweep.
 pub struct Space {
-    /// How many combinations the values make.
+    /// How many combinations the values make, at most the largest number there is.
     combinations: u64,
     /// The indices of the combinations that count, where these are listed and are not all.
     listed: Option<Vec<u64>>,
@@ -31,6 +31,12 @@ impl Space {
     #[must_use]
     pub fn count(&self) -> u64 {
         self.listed.as_ref().map_or(self.combinations, |list| list.len() as u64)
+    }
+
+    /// The word for these: machines, or combinations where they are too many to be listed.
+    #[must_use]
+    pub fn unit(&self) -> &'static str {
+        if self.combinations > MOST_LISTED { "combinations" } else { "machines" }
     }
 
     /// The index of a machine by its place below [`Space::count`].

@@ -51,6 +51,12 @@ impl Store {
         Ok((Store { path: path.to_owned(), file: Mutex::new(tail) }, rows))
     }
 
+    /// The file.
+    #[must_use]
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
     /// Appends a row.
     ///
     /// # Errors

@@ -2,7 +2,7 @@
 
 use super::library::Library;
 use super::written::{Module, Placed, modules};
-use crate::cache::Cache;
+use crate::cache::{Cache, text, unreadable};
 use crate::design::Design;
 use edgewalk_tool::{Stop, run};
 use serde::Serialize;
@@ -23,6 +23,8 @@ const MODULES: &str = "modules.json";
 const TIMING: &str = "timing.txt";
 /// Separates the longest path from the transition times in what OpenSTA prints.
 const SLEWS: &str = "Transition times:";
+/// The last line of what OpenSTA prints.
+const END: &str = "End of transition times.";
 /// The clock that the tool is asked for, ns; the path found does not depend on it.
 const PERIOD: f64 = 10.0;
 
@@ -86,7 +88,7 @@ pub fn gates(design: &Design, library: &Library, cache: &Cache, limit: Duration)
          rename -enumerate -pattern cell_% c:*; write_json {WRITTEN}; opt_clean -purge; write_verilog -noattr {VERILOG}"
     );
     let key = [&*design.hash, &yosys, &library.hash, &script, &constraints, "with ports and wires"];
-    let folder = cache.step(&key, &[VERILOG, MODULES], |folder| {
+    let work = |folder: &Path| {
         let write = |name: &str, text: &str| {
             std::fs::write(folder.join(name), text).map_err(|error| Stop::file(&folder.join(name), &error))
         };
@@ -99,31 +101,44 @@ pub fn gates(design: &Design, library: &Library, cache: &Cache, limit: Duration)
         run(Command::new("yosys").args(["-q", "-p", &script]).current_dir(folder), limit)?;
         // Yosys writes none where there is no state machine.
         let encoded = std::fs::read_to_string(folder.join(ENCODED)).unwrap_or_default();
-        let modules = serde_json::to_string(&modules(&text(&folder.join(WRITTEN))?, &encoded, library)?);
-        write(MODULES, &modules.map_err(|error| Stop::broken(MODULES, &error.into()))?)
+        let modules =
+            serde_json::to_string(&modules(&text("yosys", &folder.join(WRITTEN))?, &encoded, library)?);
+        write(MODULES, &modules.map_err(|error| Stop::file(&folder.join(MODULES), &error.into()))?)
+    };
+    let (folder, modules) = cache.step(&key, &[VERILOG, MODULES], work, |folder| {
+        let modules: BTreeMap<String, Module> = serde_json::from_str(&text("yosys", &folder.join(MODULES))?)
+            .map_err(|error| unreadable("yosys", MODULES, error))?;
+        let ends = text("yosys", &folder.join(VERILOG))?.lines().filter(|line| *line == "endmodule").count();
+        match ends == modules.len() {
+            true => Ok(modules),
+            false => {
+                Err(unreadable("yosys", VERILOG, format!("{ends} of {} modules are there", modules.len())))
+            }
+        }
     })?;
-    let modules: BTreeMap<String, Module> = serde_json::from_str(&text(&folder.join(MODULES))?)
-        .map_err(|error| Stop::broken(MODULES, &error.into()))?;
     // Absolute: OpenSTA works in another folder.
     let verilog = std::path::absolute(folder.join(VERILOG)).map_err(|error| Stop::file(&folder, &error))?;
-    let timing = cache.step(&[&key[..], &[&*sta]].concat(), &[TIMING], |folder| {
+    let work = |folder: &Path| {
         let used = modules.values().flat_map(|module| &module.cells).map(|cell| cell.of.as_str());
         let outputs: BTreeSet<&str> = used.flat_map(|cell| library.outputs(cell)).collect();
         let mut script = format!(
             "{}report_checks -path_delay max -digits 4\nputs {{{SLEWS}}}\nset sta_report_default_digits 9\n",
             opened(&verilog, top, PERIOD)
         );
+        // Writing to a string cannot fail.
         for output in outputs {
-            // Writing to a string cannot fail.
             _ = writeln!(script, "foreach pin [get_pins -hierarchical */{output}] {{ report_slews $pin }}");
         }
+        _ = writeln!(script, "puts {{{END}}}");
         std::fs::write(folder.join(TIMING), sta_run(folder, library, &script, limit)?)
             .map_err(|error| Stop::file(&folder.join(TIMING), &error))
+    };
+    let (_, ((ns, ends), slews)) = cache.step(&[&key[..], &[&*sta]].concat(), &[TIMING], work, |folder| {
+        let printed = text("sta", &folder.join(TIMING))?;
+        let whole = printed.trim_end().strip_suffix(END).and_then(|printed| printed.split_once(SLEWS));
+        let (checks, times) = whole.ok_or_else(|| unreadable("sta", TIMING, "it ends early"))?;
+        Ok((longest(checks)?, times.lines().filter_map(slew).collect()))
     })?;
-    let printed = text(&timing.join(TIMING))?;
-    let (checks, times) = printed.split_once(SLEWS).unwrap_or((&printed, ""));
-    let slews = times.lines().filter_map(slew).collect();
-    let (ns, ends) = longest(checks)?;
     let path = ends.map(|cell| named(&modules, top, library, &cell));
     let placeless = counted(design, library, &modules, [yosys, sta], (ns, path))?;
     Ok(Gates { top: top.clone(), modules, slews, placeless })
@@ -242,10 +257,6 @@ fn named(modules: &BTreeMap<String, Module>, top: &str, library: &Library, path:
     let output = placed.and_then(|of| of.pins.get(library.register(&of.of)?));
     parts.push(output.and_then(|bit| module?.name(bit)).unwrap_or(cell));
     parts.join(".").trim_start_matches("u_").to_owned()
-}
-
-fn text(path: &Path) -> Result<String, Stop> {
-    std::fs::read_to_string(path).map_err(|error| Stop::broken(&path.display().to_string(), &error))
 }
 
 fn first_line(printed: &str) -> String {

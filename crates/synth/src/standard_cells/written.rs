@@ -1,6 +1,7 @@
 //! The gates as Yosys writes them: modules with cells of the library, instances of modules, and wires.
 
 use super::library::Library;
+use crate::cache::unreadable;
 use edgewalk_tool::Stop;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -130,7 +131,7 @@ pub(super) fn modules(
 ) -> Result<BTreeMap<String, Module>, Stop> {
     let broken = |why: String| Stop::Broken { tool: "yosys".to_owned(), lines: vec![why] };
     let written: Written =
-        serde_json::from_str(json).map_err(|error| broken(format!("its netlist cannot be read: {error}")))?;
+        serde_json::from_str(json).map_err(|error| unreadable("yosys", "netlist", error))?;
     let known: Vec<String> = written.modules.keys().cloned().collect();
     let mut modules = BTreeMap::new();
     for (name, of) in written.modules {

@@ -144,8 +144,10 @@ fn printed(
                 "1000000",
             ]);
             run(compile.current_dir(directory), limit)?;
+            let built = objects.join("Vtb");
+            std::fs::metadata(&built).map_err(|error| Stop::unwritten("verilator", &built, &error))?;
             // Verilator has no unknown bits: what has no start value begins with random ones.
-            let mut program = Command::new(objects.join("Vtb"));
+            let mut program = Command::new(built);
             program.args(["+verilator+rand+reset+2", "+verilator+seed+1"]);
             run(program.current_dir(directory), limit)
         }

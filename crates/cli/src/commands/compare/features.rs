@@ -17,7 +17,6 @@ use crate::cell_energy::{CellEnergy, Drawing};
 use crate::cost::Synthesiser;
 use crate::document::document;
 use crate::estimator::Estimator;
-use crate::kept;
 use crate::machine_args::{MachineArgs, no_needs};
 use crate::verdict::Verdict;
 use anyhow::{Result, anyhow};
@@ -25,6 +24,7 @@ use edgewalk_explore::sweep::equation::{Distance, Equation, Measure};
 use edgewalk_files::Staging;
 use edgewalk_golden::Shading;
 use edgewalk_host::input::{Input, Shaded};
+use edgewalk_host::needs::reason;
 use edgewalk_host::port::to_port;
 use edgewalk_judge::passes::beside_golden;
 use edgewalk_judge::report::Report;
@@ -63,11 +63,6 @@ impl Column {
         };
         let plan = machine.named(apart(asked)?.0, None, no_needs)?;
         Ok(Column { name: name.to_owned(), asked: asked.to_owned(), shadows, plan })
-    }
-
-    /// The file or preset, without what stands behind it.
-    fn file(&self) -> Option<&str> {
-        apart(&self.asked).ok()?.0.split(',').next()
     }
 
     /// Cells by unit, and the memories.
@@ -148,10 +143,6 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
     }
     let names = [&args.a, &args.b].into_iter().chain(&args.with);
     let columns = names.map(|name| Column::new(name, machine)).collect::<Result<Vec<_>>>()?;
-    if let Some(page) = &args.page {
-        let machines = columns.iter().filter_map(Column::file);
-        kept::none_of("--page", page, args.inputs.iter().map(String::as_str).chain(machines))?;
-    }
     let shaded = Shaded::Corners(Shading::Gouraud);
     let inputs = args.inputs.iter().map(|name| Input::open(name, shaded)).collect::<Result<Vec<_>>>()?;
     let synthesiser = match args.synth.definition(&columns[0].plan)? {
@@ -189,7 +180,7 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
                         };
                     }
                 }
-                Err(why) => row["reason"] = format!("{why:#}").into(),
+                Err(why) => row["reason"] = reason(&why).into(),
             }
             rows.push(row);
         }

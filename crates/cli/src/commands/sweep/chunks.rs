@@ -8,7 +8,7 @@
 use super::{DEFINITION, ROWS, RunArgs, finished, kept, points};
 use crate::Talk;
 use crate::document::document;
-use crate::shell::quoted;
+use crate::shell::{quoted, quoted_path};
 use crate::verdict::Verdict;
 use anyhow::{Context, Result, anyhow};
 use edgewalk_explore::sweep::check::check;
@@ -41,12 +41,13 @@ pub fn plan(definition: &Definition, out: &Path, talk: Talk) -> Result<Verdict> 
     let sweep = super::opened(definition.clone())?;
     let chunks = definition.chunks.unwrap_or(1);
     let program = std::env::current_exe().context("this program")?;
+    let shown = quoted_path(out);
     let fill = |template: &str| {
         template
             .replace("@CHUNKS@", &chunks.to_string())
             .replace("@LAST@", &(chunks - 1).to_string())
             .replace("@PROGRAM@", &quoted(&program.display().to_string()))
-            .replace("@OUT@", &quoted(&out.display().to_string()))
+            .replace("@OUT@", &shown)
     };
     // A sweep that runs in the folder keeps its definition.
     let rows = out.join(ROWS);
@@ -57,13 +58,14 @@ pub fn plan(definition: &Definition, out: &Path, talk: Talk) -> Result<Verdict> 
     staging.write("hq.sh", fill(HYPER_QUEUE))?;
     staging.publish(&[DEFINITION, "slurm.sh", "hq.sh"])?;
     let sizes: Vec<usize> = (0..chunks).map(|chunk| part(&sweep, chunks, chunk).len()).collect();
-    let shown = out.display();
     talk.say(
         || document("sweep-chunks", json!({ "points": sweep.points.len(), "chunks": sizes })),
         || {
             format!(
-                "{} points in {chunks} parts\n    sbatch {shown}/slurm.sh\n    sh {shown}/hq.sh\n    edgewalk sweep merge --out {shown}\n",
-                sweep.points.len()
+                "{} points in {chunks} parts\n    sbatch {}\n    sh {}\n    edgewalk sweep merge --out {shown}\n",
+                sweep.points.len(),
+                quoted_path(&out.join("slurm.sh")),
+                quoted_path(&out.join("hq.sh"))
             )
         },
     )?;
@@ -96,8 +98,7 @@ pub fn run(args: &RunArgs, talk: Talk) -> Result<Verdict> {
     let (store, rows) = Store::open(&path)?;
     let again: Vec<Status> = args.retry.iter().map(|retry| Status::from(*retry)).collect();
     let of = part(&sweep, chunks, chunk);
-    let made = points(&sweep, &of, (&store, store::by_key(rows)), &again, &args.tools, talk)
-        .with_context(|| path.display().to_string())?;
+    let made = points(&sweep, &of, (&store, store::by_key(rows)), &again, &args.tools, talk)?;
     let rows = store::by_key(store::read(&path)?);
     let faults = of.iter().filter(|point| rows.get(&point.key).is_some_and(is_beyond)).count();
     talk.say(

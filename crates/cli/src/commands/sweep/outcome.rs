@@ -6,7 +6,7 @@ use crate::machine_args::MachineArgs;
 use crate::progress::spinner;
 use crate::shell::quoted;
 use crate::talk::Talk;
-use crate::verdict::Verdict;
+use crate::verdict::{NoFigures, Verdict};
 use anyhow::Result;
 use edgewalk_explore::page::{number, page, rule, ruled_out};
 use edgewalk_explore::sweep::csv::csv;
@@ -281,13 +281,25 @@ impl<'o> Outcome<'o> {
     }
 
     /// Mismatch where an error exceeds what is proved; vacuous where nothing was drawn at all.
-    pub fn verdict(&self) -> Verdict {
-        let count =
-            |wanted| self.table.counts().iter().find(|(s, _)| *s == wanted).map_or(0, |(_, n)| *n as u64);
+    ///
+    /// # Errors
+    /// Machines were drawn, and of none the tools gave figures.
+    pub fn verdict(&self) -> Result<Verdict> {
+        let of = |wanted: Status| self.table.rows.iter().filter(move |row| row["status"] == wanted.name());
         if self.table.faults() > 0 {
-            return Verdict::Mismatch;
+            return Ok(Verdict::Mismatch);
         }
-        Verdict::drew(count(Status::Ok) + count(Status::Pruned))
+        let known = of(Status::Ok).chain(of(Status::Pruned)).count();
+        // What was drawn and could be compared failed in a tool.
+        let broken = of(Status::Failed).find(|row| row["report"].is_object() && row["verdict"] != "open");
+        match of(Status::Timeout).next().or(broken) {
+            Some(row) if known == 0 => Err(NoFigures {
+                why: row["reason"].as_str().unwrap_or_default().to_owned(),
+                late: row["status"] == Status::Timeout.name(),
+            }
+            .into()),
+            _ => Ok(Verdict::drew(known as u64)),
+        }
     }
 }
 

@@ -15,7 +15,7 @@ impl<'f> PageFile<'f> {
     /// The file that `--page` names; `out` is the folder of these other files.
     ///
     /// # Errors
-    /// No file can be written there, or it is one of the other files.
+    /// No file can be written there, or it is one of the other files or an input that was read.
     pub fn new(file: &'f Path, (out, others): (&Path, &[&str])) -> Result<PageFile<'f>> {
         let given = || format!("--page {}", file.display());
         let name = file.file_name().and_then(|name| name.to_str()).with_context(|| {
@@ -43,6 +43,7 @@ impl<'f> PageFile<'f> {
         let staging = Staging::within(folder, given)?;
         // What is no regular file is refused here.
         staging.create(name).with_context(given)?;
+        staging.accept([name]).with_context(given)?;
         Ok(PageFile { staging, name })
     }
 
