@@ -75,6 +75,17 @@ impl Verdict {
 }
 
 #[cfg(test)]
+    /// The word in reports.
+    #[must_use]
+    pub fn word(self) -> &'static str {
+        match self {
+            Verdict::Pass => "pass",
+            Verdict::Mismatch => "mismatch",
+            Verdict::Vacuous => "vacuous",
+            Verdict::Open => "open",
+        }
+    }
+
 mod tests {
     use super::Verdict::{self, Mismatch, Open, Pass, Vacuous};
 

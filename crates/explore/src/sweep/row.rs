@@ -4,7 +4,6 @@ use super::equation::Distance;
 use super::grid::Sweep;
 use super::point::Point;
 use anyhow::Result;
-use edgewalk_judge::Verdict;
 use edgewalk_judge::report::Report;
 use edgewalk_judge::verdict::within;
 use edgewalk_machine::key::Domain;
@@ -114,12 +113,7 @@ pub fn with_figures(
     let mut row = identity(sweep, point);
     row["status"] = Status::Ok.name().into();
     if let Some(comparison) = &found.report.comparison {
-        row["verdict"] = json!(match comparison.verdict() {
-            Verdict::Pass => "pass",
-            Verdict::Mismatch => "mismatch",
-            Verdict::Vacuous => "vacuous",
-            Verdict::Open => "open",
-        });
+        row["verdict"] = comparison.verdict().word().into();
     }
     row["report"] = serde_json::to_value(found.report)?;
     row["slack"] = slack(&row["report"]);
