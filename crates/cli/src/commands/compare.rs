@@ -192,15 +192,15 @@ impl Asked {
         let (text, own) = apart(name)?;
         let common = args.shading.as_deref().map(named).transpose()?;
         let screen = input.size();
-        if let (Some(_), Some((shading, _))) = (screen, own) {
+        if let (Some(mode), Some((shading, _))) = (input.own_shading(), own.or(common))
+            && mode != shading
+        {
+            let (given, out) = match own {
+                Some(_) => (name.to_owned(), format!(":{shading}")),
+                None => (format!("--shading {shading}"), "--shading".to_owned()),
+            };
             return Err(anyhow!(
-                "{name}: {} says itself how it is shaded; leave :{shading} out",
-                input.name()
-            ));
-        }
-        if let (Some(_), Some(shading)) = (screen, &args.shading) {
-            return Err(anyhow!(
-                "--shading {shading}: {} says itself how it is shaded; leave --shading out",
+                "{given}: {} says itself how it is shaded: {mode}; leave {out} out",
                 input.name()
             ));
         }
