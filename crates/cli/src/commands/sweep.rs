@@ -103,7 +103,8 @@ struct What {
     /// (repeatable)
     #[arg(long, value_name = "KIND")]
     stalls: Vec<String>,
-    /// Memory that counts in bests and fronts: worst (for each objective), sum (of the cycles), or one of --stalls
+    /// Memory that counts in bests and fronts: worst (for each objective), sum (of cycles and bytes), or one of
+    /// --stalls
     #[arg(long, value_name = "WHICH", default_value = Judge::WORST)]
     judge: String,
     /// What of several inputs counts: sum (of cycles and bytes; of everything else the worst), or worst (for each objective)
