@@ -92,6 +92,8 @@ pub struct Synthesiser {
     _scratch: Scratch,
     /// By the machine's hash.
     known: Mutex<BTreeMap<String, Cost>>,
+    /// What stopped the tools last.
+    stopped: Mutex<Option<Stop>>,
 }
 
 impl Synthesiser {
@@ -108,6 +110,7 @@ impl Synthesiser {
             cache,
             _scratch: scratch,
             known: Mutex::default(),
+            stopped: Mutex::default(),
         })
     }
 
@@ -117,6 +120,19 @@ impl Synthesiser {
             edgewalk_tool::run(std::process::Command::new(tool).arg("--version"), self.limit)?;
         }
         Ok(())
+    }
+
+    /// Checks that one machine at least has cells.
+    ///
+    /// # Errors
+    /// What stopped the tools where none has.
+    pub fn check_any(&self) -> Result<()> {
+        let known = self.known.lock().unwrap_or_else(PoisonError::into_inner);
+        let stopped = self.stopped.lock().unwrap_or_else(PoisonError::into_inner);
+        match &*stopped {
+            Some(stop) if known.values().all(Cost::is_err) => Err(stop.clone().into()),
+            _ => Ok(()),
+        }
     }
 
     /// Cells, clock and critical path; what the device or the tools do not give is null, with the reason.
@@ -138,6 +154,9 @@ impl Synthesiser {
         let flow =
             Flow { cache: &self.cache, limit: self.limit, seeds: &self.seeds, by_unit: true, done: &|| {} };
         let outcome = flow.run(&design, &self.target);
+        if let Some(stop) = &outcome.stop {
+            *self.stopped.lock().unwrap_or_else(PoisonError::into_inner) = Some(stop.clone());
+        }
         match &outcome.stop {
             Some(stop @ Stop::TimeLimit { .. }) => Err((Status::Timeout, stop.to_string())),
             Some(stop) => Err(failed(stop.to_string())),

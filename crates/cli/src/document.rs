@@ -7,9 +7,9 @@ use serde::Serialize;
 /// new.
 fn version(what: &str) -> [u32; 2] {
     match what {
-        "estimate" => [1, 1],
-        "keys" | "report" | "explain" | "judge" | "energy" | "sweep" => [1, 2],
-        "features" => [1, 3],
+        "estimate" | "size" | "compare" => [1, 1],
+        "report" | "explain" | "judge" | "energy" | "sweep" => [1, 2],
+        "features" | "keys" => [1, 3],
         _ => [1, 0],
     }
 }

@@ -4,12 +4,77 @@
 use crate::support::{TRIANGLE, colors, edgewalk, names, npy, report, run};
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
+use std::os::unix::fs::PermissionsExt as _;
 use std::path::Path;
 
+/// What JSON says; the exit code is 1 where a picture differs from golden's.
 fn compare(folder: &Path, arguments: &[&str]) -> Value {
     let output = edgewalk(folder, &[&["compare"], arguments, &["--json"]].concat()).output().unwrap();
-    assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
-    serde_json::from_slice(&output.stdout).unwrap()
+    let told: Value = serde_json::from_slice(&output.stdout).unwrap_or_default();
+    let right = ["a", "b"].iter().all(|side| told[side]["verdict"] == "pass");
+    let error = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(if right { 0 } else { 1 }), "{error}");
+    told
+}
+
+/// A picture that errs beyond its bounds, or of which no pixel can be compared, is no pass: `render` ends alike.
+#[test]
+fn verdicts_are_those_of_render() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = folder.path();
+    std::fs::write(at.join("a.tri"), CROSSED).unwrap();
+    std::fs::write(at.join("open.tri"), OPEN).unwrap();
+    let blend = "default,blend.kind=constant";
+    for (machine, changed, input, verdicts) in [
+        ("default", "edge.kind=slope,edge.fraction_bits=4", "a.tri", ["pass", "mismatch"]),
+        ("default", "interpolator.adders=1", "a.tri", ["pass", "pass"]),
+        (blend, "interpolator.adders=1", "open.tri", ["open", "open"]),
+    ] {
+        let other = format!("{machine},{changed}");
+        let [first, second] = [machine, &other].map(|machine| {
+            let set = machine.split(',').skip(1).flat_map(|set| ["--set", set]);
+            run(at, &["render", input, "-q"].into_iter().chain(set).collect::<Vec<_>>()).0
+        });
+        let output = edgewalk(at, &["compare", machine, &other, input]).output().unwrap();
+        assert_eq!(output.status.code(), first.max(second), "{machine} {input}");
+        let told = std::fs::read(at.join("out/compare/compare.json")).unwrap();
+        let told: Value = serde_json::from_slice(&told).unwrap();
+        let text = String::from_utf8(output.stdout).unwrap();
+        for ((side, verdict), line) in ["a", "b"].into_iter().zip(verdicts).zip(text.lines().skip(1)) {
+            assert_eq!(told[side]["verdict"], verdict, "{machine} {input}");
+            assert!(line.starts_with(&format!("{side}: ")), "{line}");
+            assert!(line.ends_with(&format!(", beside golden: {verdict}")), "{line}");
+        }
+    }
+}
+
+/// The command ends as `synth` does where the tools count no machine, and says why.
+#[test]
+fn tools_that_fail_are_told() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = folder.path();
+    std::fs::write(at.join("a.tri"), TRIANGLE).unwrap();
+    let words = ["compare", "small", "small,setup.lanes=1", "a.tri", "--synth", "ice40-hx8k"];
+    let words =
+        [&words[..], &["--synth-unit", "depth", "--limit", "1", "--cache", "c", "--page", "p.html"]].concat();
+    for (work, code, said) in
+        [("echo boom; exit 1", 3, "yosys failed:\nboom"), ("sleep 9", 4, "yosys was ended after 1 s")]
+    {
+        for name in ["yosys", "nextpnr-ice40"] {
+            let script = format!("#!/bin/sh\ncase $1 in -V|--version) echo made up;; *) {work};; esac\n");
+            std::fs::write(at.join(name), script).unwrap();
+            std::fs::set_permissions(at.join(name), std::fs::Permissions::from_mode(0o755)).unwrap();
+        }
+        let path = format!("{}:{}", at.display(), std::env::var("PATH").unwrap());
+        for words in [&words[..], &words[..words.len() - 2]] {
+            let output = edgewalk(at, words).env("PATH", &path).output().unwrap();
+            let [text, error] = [output.stdout, output.stderr].map(|of| String::from_utf8(of).unwrap());
+            assert_eq!(output.status.code(), Some(code), "{error}");
+            assert!(text.matches(said).count() == 2 && error.contains(said), "{text}{error}");
+        }
+        let page = std::fs::read_to_string(at.join("p.html")).unwrap();
+        assert_eq!(page.matches(said).count(), 2, "{page}");
+    }
 }
 
 #[test]
@@ -83,6 +148,12 @@ const CROSSED: &str = "size 64 48
 T 2.3 1.7 0.1 1 0.2 0 0  61.2 3.1 0.5 0 1 0 0  5.9 44.3 0.9 0.1 0 1 0
 T 60.1 4.2 0.2 0 0.3 0.9 0  58.7 45.9 0.8 0.6 0.1 0 0  9.4 40.6 0.4 1 1 0.2 0
 T 10.5 8.25 0.45 0.3 0.7 0.1 0  50.3 20.9 0.47 0.9 0 0 0  20.2 39.7 0.43 0 0.6 1 0
+";
+/// Two layers whose depths are nearer than their bound.
+pub const OPEN: &str = "size 64 48
+blend 1
+T 5 5 0.5 1 0 0 0.5  50 8 0.5 0 1 0 0.5  20 40 0.5 0 0 1 0.5
+T 5 5 0.5 1 0 0 0.5  50 8 0.50000003 0 1 0 0.5  20 40 0.5 0 0 1 0.5
 ";
 const OTHER: &str = "formats.z_fraction=4,formats.color_fraction=5,edge.kind=slope,edge.fraction_bits=4,interpolator.adders=1,formats.z_bits=16";
 
@@ -267,9 +338,9 @@ fn machines_that_shade_differently_are_compared() {
         assert!(code == Some(2) && error.contains(said), "{error}");
     }
     std::fs::write(at.join("c.tri"), CROSSED).unwrap();
-    let (code, error) = run(at, &["compare", "default:gouraud", "default", "c.tri"]);
+    let (code, error) = run(at, &["compare", "default:constant", "default", "c.tri"]);
     assert!(
-        code == Some(2) && error.contains("c.tri says itself how it is shaded; leave :gouraud out"),
+        code == Some(2) && error.contains("c.tri says itself how it is shaded: gouraud; leave :constant out"),
         "{error}"
     );
 }
@@ -283,7 +354,7 @@ fn the_shading_of_a_file_is_its_own() {
     let (code, error) = run(folder.path(), &words);
     assert_eq!(code, Some(2), "{error}");
     assert!(
-        error.contains("--shading phong: a.tri says itself how it is shaded; leave --shading out"),
+        error.contains("--shading phong: a.tri says itself how it is shaded: gouraud; leave --shading out"),
         "{error}"
     );
     assert!(!folder.path().join("o").exists());

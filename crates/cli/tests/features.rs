@@ -283,6 +283,17 @@ fn pictures_that_fail_are_named() {
     let verdicts = [0, 1].map(|place| json["machines"][place]["inputs"][0]["verdict"].as_str().unwrap());
     assert_eq!((code, verdicts), (Some(1), ["pass", "mismatch"]), "{text}");
     assert!(text.contains("M2, a.tri: beside golden: mismatch\n") && !text.contains("M1, a.tri"), "{text}");
+    // Of an open picture no error is known.
+    std::fs::write(at.join("open.tri"), crate::compare::OPEN).unwrap();
+    let blend = "default,blend.kind=constant";
+    let (code, text, json) = told(&[blend, blend, "open.tri", "a.tri"]);
+    let rows = &json["machines"][1]["inputs"];
+    assert_eq!((code, &rows[0]["verdict"], &rows[1]["verdict"]), (Some(2), &json!("open"), &json!("pass")));
+    assert!(rows[0]["z_error"].is_null() && rows[1]["z_error"].is_number(), "{rows}");
+    assert!(
+        text.contains("M2, open.tri: beside golden: open\n") && !text.contains("open.tri: depth"),
+        "{text}"
+    );
     let (code, text, json) = told(&["default", "default,fifo.span=4", "off.tri", "a.tri"]);
     assert_eq!(code, Some(0), "{text}");
     for machine in [0, 1] {

@@ -245,6 +245,13 @@ fn a_key_is_explained_by_the_machines_of_its_values() {
     assert_eq!(checked, 14);
 }
 
+/// What `config explain edge.kind` says of a machine.
+fn of_edges(setting: &str, json: bool) -> String {
+    let words = ["config", "explain", "edge.kind", "--set", setting, "--json"];
+    let output = Command::new(env!("CARGO_BIN_EXE_edgewalk")).args(&words[..5 + usize::from(json)]).output();
+    String::from_utf8(output.expect("the program runs").stdout).expect("text")
+}
+
 /// A triangle that breaks a bit fewer is one that the machine takes: on its places, in its guard band. Beside a slope edge
 /// pixels are drawn of which nothing is proved.
 #[test]
@@ -258,6 +265,10 @@ fn what_a_machine_cannot_take_is_not_named() {
         ("screen.subpixel_bits=4", "at most 0.8154 LSB, proved\n", "every pixel"),
     ] {
         assert_eq!(precision(&[setting])["holds"], holds);
+        assert_eq!(of_edges(setting, true).matches(holds).count(), 1, "{setting}");
+        assert!(
+            of_edges(setting, false).contains("  bounds of slope edges hold at pixels inside the triangle\n")
+        );
         let page = explain(&[setting], false);
         assert_eq!(
             (page.matches(proved).count(), page.matches("bits, triangle (").count()),

@@ -228,6 +228,21 @@ fn a_file_names_its_own_mode() {
                 refused += 1;
             }
         }
+        // Of several machines, too; beside a scene a sweep shades the scene.
+        let machines = format!("default,shade.kind={}", if shaded { mode } else { "none" });
+        let vary = format!("shade.kind={}", if shaded { mode } else { "none" });
+        let sweep = ["sweep", "a.tri", "--vary", &vary, "--out", "s", "-q", "--shading"];
+        let compare = ["compare", &machines, &machines, "a.tri", "--out", "c", "-q", "--shading"];
+        for (command, other) in [&sweep[..], &compare].into_iter().flat_map(|of| all.map(|other| (of, other)))
+        {
+            let (code, error) = run(folder, &[command, &[other]].concat());
+            assert_eq!(code, Some(if other == own { 0 } else { 2 }), "{mode} {other}: {error}");
+            let found = format!("--shading {other}: ");
+            assert!(
+                other == own || error.contains(&found) && error.contains("leave --shading out"),
+                "{error}"
+            );
+        }
         for way in [own, "wireframe"] {
             let (code, error) = run(folder, &[commands[0], &["--adapt", "--shading", way]].concat());
             assert_eq!(code, Some(0), "{mode} {way}: {error}");

@@ -13,6 +13,20 @@ fn json(folder: &Path, arguments: &[&str]) -> (Option<i32>, Value) {
     (output.status.code(), value)
 }
 
+/// A slope edge also draws pixels outside the triangle, of which nothing is proved.
+#[test]
+fn bounds_say_for_which_pixels_they_hold() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("a.tri"), TRIANGLE).unwrap();
+    for (kind, holds) in [("slope", "pixels inside the triangle"), ("exact", "every pixel")] {
+        let set = format!("edge.kind={kind}");
+        let words = ["size", "a.tri", "--set", &set];
+        assert_eq!(json(folder.path(), &words).1["holds"], holds);
+        let text = String::from_utf8(edgewalk(folder.path(), &words).output().unwrap().stdout).unwrap();
+        assert_eq!(text.contains(&format!("bounds hold at {holds}")), kind == "slope", "{text}");
+    }
+}
+
 /// The machine that `size` answers with, as settings.
 fn settings(report: &Value, answer: &str) -> Vec<String> {
     let channels = report["channels"].as_array().unwrap();

@@ -89,7 +89,7 @@ impl Staging {
     ///
     /// # Errors
     /// Nothing is moved if a file cannot be placed, or if an input of this run would be lost. An input that would be
-    /// replaced by the same bytes is not lost.
+    /// replaced by the same bytes is not lost; [`Staging::accept`], before they are known, refuses it.
     pub fn publish(self, own: &[impl AsRef<str>]) -> Result<()> {
         let undisturbed = scratch::undisturbed();
         let mut names = BTreeSet::new();

@@ -10,7 +10,8 @@ use anyhow::{Context as _, Result, anyhow};
 use edgewalk_golden::Shading;
 use edgewalk_machine::{Counted, Plan};
 use edgewalk_scene::{
-    Blending, Change, Frame, InputKind, Line, PixelMethod, Scene, Surface, Triangulated, triangle_file,
+    Blending, Change, Frame, InputKind, Line, PixelMethod, Scene, ShadeMode, Surface, Triangulated,
+    triangle_file,
 };
 use sha2::{Digest, Sha256};
 use std::path::Path;
@@ -81,6 +82,19 @@ impl Input {
     pub fn size(&self) -> Option<(u32, u32)> {
         match &self.what {
             What::Triangles(frame) => Some((frame.width, frame.height)),
+            What::Scene(..) => None,
+        }
+    }
+
+    /// The name of the shading that a triangle file brings; none of a scene.
+    #[must_use]
+    pub fn own_shading(&self) -> Option<&'static str> {
+        match &self.what {
+            What::Triangles(frame) => Some(match (&frame.shading, frame.mode) {
+                (Some(shading), _) => shading.method.name(),
+                (None, ShadeMode::Flat) => "constant",
+                (None, ShadeMode::Gouraud) => "gouraud",
+            }),
             What::Scene(..) => None,
         }
     }

@@ -1,7 +1,7 @@
 //! What a check found, and when that is a pass.
 
 use anyhow::{Result, anyhow};
-use edgewalk_machine::NoBound;
+use edgewalk_machine::{EdgeKind, Machine, NoBound};
 use serde::{Serialize, Serializer};
 
 /// Errors and bounds are computed in f64, and a bound can be reached. An error exceeds it by more than this, LSB.
@@ -11,6 +11,18 @@ pub const ROUNDING: f64 = 1e-9;
 #[must_use]
 pub fn within(error: f64, bound: f64) -> bool {
     error <= bound + ROUNDING
+}
+
+/// Where the walk of the edges is exact.
+pub const EVERY_PIXEL: &str = "every pixel";
+
+/// The pixels for which the bounds of a machine hold: a slope edge also draws pixels outside the triangle.
+#[must_use]
+pub fn holds(machine: &Machine) -> &'static str {
+    match machine.edge_kind {
+        EdgeKind::Exact => EVERY_PIXEL,
+        EdgeKind::Slope => "pixels inside the triangle",
+    }
 }
 
 /// Why there is no bound, as text in a report.
@@ -61,6 +73,17 @@ impl Verdict {
             }
         };
         Err(anyhow!("{input}: nothing was drawn: {why}"))
+    }
+
+    /// The word in reports.
+    #[must_use]
+    pub fn word(self) -> &'static str {
+        match self {
+            Verdict::Pass => "pass",
+            Verdict::Mismatch => "mismatch",
+            Verdict::Vacuous => "vacuous",
+            Verdict::Open => "open",
+        }
     }
 
     /// The worse of two.

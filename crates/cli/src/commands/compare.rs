@@ -21,6 +21,7 @@ use edgewalk_host::port::to_port;
 use edgewalk_host::raster::Raster;
 use edgewalk_host::reach::reach;
 use edgewalk_judge::beside::{Golden, Proved, Subject};
+use edgewalk_judge::compare::Comparison;
 use edgewalk_judge::report::Report;
 use edgewalk_judge::setup_report::SetupReport;
 use edgewalk_machine::Plan;
@@ -34,8 +35,8 @@ use std::path::PathBuf;
 /// A machine is a file or preset, with settings behind commas and its shading behind a colon; --set holds for both.
 /// Without a shading, the machine's shade.kind decides. Where the shadings differ, each picture is also compared
 /// with the shading equation at each pixel. Pictures: a.png, b.png, and difference.png, with the largest difference
-/// in yellow. The command compares machines, each beside golden as in `edgewalk render`. It does not take pictures
-/// of other programs.
+/// in yellow. The command compares machines, each beside golden as in `edgewalk render`. Its verdict, and so the exit
+/// code, is the worse of those that `render` has. It does not take pictures of other programs.
 ///
 /// With several inputs, --with, --table, --page or --energy the command prints what features cost, as one table: estimated cells by
 /// unit, clock and memory of each machine; cycles, bytes and distance from the shading equation of each machine on each
@@ -157,7 +158,8 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
         image.finish()?;
         let cost = synthesiser.as_ref().map(|synthesiser| synthesiser.cost(&of.plan));
         let distance = measure.map(Measure::distance);
-        Ok(Side { name: of.name, plan: of.plan, shading: of.shading, report, distance, cost })
+        let verdict = verdict(&report);
+        Ok(Side { name: of.name, plan: of.plan, shading: of.shading, report, verdict, distance, cost })
     };
     let mut first = First::new(&out)?;
     let a = side(a, "a.png", &mut |raster| first.add(raster))?;
@@ -169,6 +171,7 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
     out.write("compare.txt", page.text())?;
     out.publish(&FILES)?;
     talk.say(|| page.json(), || page.text())?;
+    synthesiser.iter().try_for_each(Synthesiser::check_any)?;
     page.verdict().or_nothing(name, page.primitives(), (width, height))
 }
 
@@ -189,15 +192,15 @@ impl Asked {
         let (text, own) = apart(name)?;
         let common = args.shading.as_deref().map(named).transpose()?;
         let screen = input.size();
-        if let (Some(_), Some((shading, _))) = (screen, own) {
+        if let (Some(mode), Some((shading, _))) = (input.own_shading(), own.or(common))
+            && mode != shading
+        {
+            let (given, out) = match own {
+                Some(_) => (name.to_owned(), format!(":{shading}")),
+                None => (format!("--shading {shading}"), "--shading".to_owned()),
+            };
             return Err(anyhow!(
-                "{name}: {} says itself how it is shaded; leave :{shading} out",
-                input.name()
-            ));
-        }
-        if let (Some(_), Some(shading)) = (screen, &args.shading) {
-            return Err(anyhow!(
-                "--shading {shading}: {} says itself how it is shaded; leave --shading out",
+                "{given}: {} says itself how it is shaded: {mode}; leave {out} out",
                 input.name()
             ));
         }
@@ -223,6 +226,11 @@ fn apart(name: &str) -> Result<(&str, Option<(&'static str, Shaded)>)> {
         }
         _ => Ok((name, None)),
     }
+}
+
+/// What `render` says of the picture.
+fn verdict(report: &Report) -> Verdict {
+    report.comparison.as_ref().map_or(Verdict::Vacuous, Comparison::verdict)
 }
 
 /// The picture with the places in the input for those in the frame.

@@ -10,6 +10,7 @@ use anyhow::{Context, Result};
 use edgewalk_explore::size::{Answer, Breaker, ChannelSize, Size, size};
 use edgewalk_files::Staging;
 use edgewalk_host::input::counted;
+use edgewalk_judge::verdict::{EVERY_PIXEL, holds};
 use edgewalk_machine::{Counted, Plan};
 use edgewalk_scene::triangle_file;
 use serde_json::{Value, json};
@@ -95,6 +96,7 @@ impl Page<'_> {
             "machine": self.machine.hash(),
             "width": self.machine.width,
             "height": self.machine.height,
+            "holds": holds(self.machine),
             "triangles": self.counted.triangles,
             "polygons": self.counted.polygons,
         });
@@ -119,6 +121,10 @@ impl Page<'_> {
             machine.hash(),
             found.error
         );
+        let holds = holds(machine);
+        if holds != EVERY_PIXEL {
+            _ = writeln!(t, "bounds hold at {holds}: a slope edge also draws others");
+        }
         let bits = found.guard_bits;
         _ = writeln!(
             t,

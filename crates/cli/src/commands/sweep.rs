@@ -103,7 +103,8 @@ struct What {
     /// (repeatable)
     #[arg(long, value_name = "KIND")]
     stalls: Vec<String>,
-    /// Memory that counts in bests and fronts: worst (for each objective), sum (of the cycles), or one of --stalls
+    /// Memory that counts in bests and fronts: worst (for each objective), sum (of cycles and bytes), or one of
+    /// --stalls
     #[arg(long, value_name = "WHICH", default_value = Judge::WORST)]
     judge: String,
     /// What of several inputs counts: sum (of cycles and bytes; of everything else the worst), or worst (for each objective)
@@ -122,7 +123,7 @@ struct What {
     /// Seed of --sample or --search
     #[arg(long, value_name = "S", requires = "some", value_parser = whole::<u64>(..))]
     seed: Option<u64>,
-    /// Skip points without a proved bound of at most this many LSB for the input's triangles
+    /// Skip points without a proved bound of at most this many LSB at pixels inside the input's triangles
     #[arg(long, value_name = "LSB", value_parser = real(f64::NEG_INFINITY..=f64::INFINITY, "LSB"))]
     bound: Option<f64>,
     /// What a machine must keep, NAME<=NUMBER or NAME>=NUMBER by the names of the objectives (repeatable). Cells and

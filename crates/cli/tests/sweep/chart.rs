@@ -91,8 +91,7 @@ impl Chart<'_> {
         let of = |input: &String| -> Option<f64> {
             let mine =
                 self.rows.iter().filter(|row| row["input"] == input.as_str() && row["keys"][key] == bits);
-            let bounds: Option<Vec<f64>> =
-                mine.map(|row| figure(row, name).filter(|_| row["keys"]["edge.kind"] == "exact")).collect();
+            let bounds: Option<Vec<f64>> = mine.map(|row| figure(row, name)).collect();
             bounds.filter(|bounds| !bounds.is_empty()).map(|bounds| bounds.into_iter().fold(0.0, f64::max))
         };
         let lacking: Vec<&str> =

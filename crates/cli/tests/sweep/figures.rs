@@ -42,10 +42,10 @@ const NAMES: [&str; 3] = ["none", "random:rd=200", "dram:miss=9"];
 /// text says of the inputs.
 type How = (&'static str, Judge, &'static [&'static str], Over, &'static [&'static str], &'static str);
 
-const SUMMED: &str = "Of 3 inputs the cycles are summed, and the worst of every other figure counts";
+const SUMMED: &str = "Of 3 inputs cycles and bytes are summed, and the worst of every other figure counts";
 const ASKED: [How; 6] = [
     ("worst", Judge::Worst, &[], Over::Sum([1.0; 3]), &[], SUMMED),
-    ("sum", Judge::Sum, &["cycles", "z_bound"], Over::Sum([1.0; 3]), &[], SUMMED),
+    ("sum", Judge::Sum, &["cycles", "bytes", "z_bound"], Over::Sum([1.0; 3]), &[], SUMMED),
     ("none", Judge::Only(0), &["color_error", "word_bits", "cycles"], Over::Sum([1.0; 3]), &[], SUMMED),
     (
         "dram:miss=9",
@@ -61,7 +61,7 @@ const ASKED: [How; 6] = [
         &[],
         Over::Sum([1.0, 0.125, 300.0]),
         &["--weight", "own.tri=300", "--weight", "torus=0.125"],
-        "Of 3 inputs the cycles are summed (own.tri times 300, torus times 0.125), and the worst of every other figure",
+        "Of 3 inputs cycles and bytes are summed (own.tri times 300, torus times 0.125), and the worst of every other figure",
     ),
     (
         "sum",

@@ -64,6 +64,46 @@ fn keys_of_units_that_are_varied_reach_their_machines() {
     assert_eq!(keys(&at.join("parts")), keys(&at.join("set")));
 }
 
+/// A triangle file brings its screen to any machine; scenes are drawn on that of the sweep, and so is the best.
+#[test]
+fn best_machine_has_the_screen_of_scenes() {
+    let folder = inputs();
+    let at = folder.path();
+    let screen = ["--set", "screen.width=96", "--set", "screen.height=72"];
+    for inputs in [["a.tri", "sphere"], ["sphere", "a.tri"]] {
+        let words = [&inputs[..], &["--vary", "fifo.span=1,2", "--out", inputs[0]], &screen].concat();
+        let best = &told(at, &words)["best"]["cycles"];
+        let file = best["file"].as_str().unwrap();
+        let cycles = inputs.map(|input| {
+            let output = edgewalk(at, &["render", input, "--machine", file, "--json"]).output().unwrap();
+            let report: Value = serde_json::from_slice(&output.stdout).unwrap();
+            (input == "a.tri" || report["machine"] == best["machine"])
+                .then(|| report["cycles"]["total"].as_f64())
+        });
+        let sum = cycles[0].unwrap().unwrap() + cycles[1].unwrap().unwrap();
+        assert_eq!(best["values"]["cycles"].as_f64(), Some(sum), "{file}");
+    }
+}
+
+/// A slope edge also draws pixels outside the triangle: a bound is called proved of those inside, and only of these.
+#[test]
+fn bounds_of_slope_edges_are_of_pixels_inside() {
+    let folder = inputs();
+    let at = folder.path();
+    let slope = ["--vary", "edge.kind=slope", "--vary", "edge.fraction_bits=2,16", "--bound", "0.9"];
+    let words = [&["sphere"], &slope[..], &["--objective", "z_bound", "--out", "s"]].concat();
+    assert_eq!(told(at, &[&words[..], &crate::support::SCREEN].concat())["faults"], 0);
+    let verdicts: Vec<Value> = rows(&at.join("s")).iter().map(|row| row["verdict"].clone()).collect();
+    assert!(verdicts.contains(&"mismatch".into()), "{verdicts:?}");
+    for (name, times) in [("best_z_bound.toml", 1), ("report.html", 2)] {
+        let text = std::fs::read_to_string(at.join("s").join(name)).unwrap();
+        assert!(
+            text.matches("bound of it at pixels inside these triangles, LSB, proved").count() >= times,
+            "{name}"
+        );
+    }
+}
+
 #[test]
 fn machine_that_cannot_be_built_is_varied_into_those_that_can() {
     let folder = inputs();

@@ -97,9 +97,10 @@ pub fn pointer(column: &str) -> Option<String> {
     rest.get(column).map(|at| (*at).to_owned())
 }
 
-/// An objective: its name, its column, whether cycles are summed, whether the most is best.
-const OBJECTIVES: [(&str, &str, bool, bool); 9] = [
+/// An objective: its name, its column, whether values are summed, whether the most is best.
+const OBJECTIVES: [(&str, &str, bool, bool); 10] = [
     ("cycles", "cycles", true, false),
+    ("bytes", "bytes", true, false),
     ("z_error", "z_error", false, false),
     ("color_error", "color_error", false, false),
     ("z_bound", "z_bound_for_input", false, false),

@@ -6,8 +6,7 @@ const boundsOf = (key, figure) => {
   for (const row of rows) {
     const bits = get(row, key), input = inputOf(row);
     if (!all.has(bits)) all.set(bits, inputs.map(() => []));
-    // Nothing is proved of slope edges.
-    const bound = get(row, "edge.kind") === "exact" ? get(row, figure) : null;
+    const bound = get(row, figure);
     all.get(bits)[input].push(typeof bound === "number" ? bound : null);
   }
   const known = new Map(), lacking = new Map();

@@ -107,6 +107,7 @@ impl Sweep {
         };
         check_chunks(definition.chunks, chosen.len() * rows)?;
         let inputs = inputs(&definition.inputs, &shadings)?;
+        check_shading(definition.shading.as_deref(), &inputs)?;
         let over_inputs = OverInputs::parse(&definition.judge_inputs, &definition.weights, &inputs)?;
         let judge = Judge { memories: over_memories, inputs: over_inputs };
         let mut sweep = Sweep {
@@ -217,6 +218,20 @@ impl Sweep {
         let of = self.definition.synth.as_ref();
         of.map_or_else(String::new, |s| format!("{} {} seeds {}", s.target, s.unit, s.seeds))
     }
+}
+
+/// Accepts a shading that an input takes: a scene takes any, a triangle file its own.
+fn check_shading(shading: Option<&str>, inputs: &[Subject]) -> Result<()> {
+    let Some(shading) = shading else { return Ok(()) };
+    let mut left = inputs.iter().map(|input| input.way(0).input.own_shading());
+    if left.any(|mode| mode.is_none_or(|mode| mode == shading)) {
+        return Ok(());
+    }
+    let names: Vec<&str> = inputs.iter().map(|input| input.name.as_str()).collect();
+    Err(anyhow!(
+        "--shading {shading}: triangle files say themselves how they are shaded ({}); permitted: beside a scene; leave --shading out",
+        names.join(", ")
+    ))
 }
 
 fn check_bound(bound: Option<f64>) -> Result<()> {

@@ -213,7 +213,7 @@ impl OverInputs {
                 let by =
                     if weighed.is_empty() { String::new() } else { format!(" ({})", weighed.join(", ")) };
                 format!(
-                    "Of {count} inputs the cycles are summed{by}, and the worst of every other figure counts"
+                    "Of {count} inputs cycles and bytes are summed{by}, and the worst of every other figure counts"
                 )
             }
         }

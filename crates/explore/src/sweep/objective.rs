@@ -48,11 +48,15 @@ pub const OBJECTIVES: &[Objective] = &[
     },
     least("z_error", "/report/comparison/z_error", "largest depth error, LSB, simulated"),
     least("color_error", "/report/comparison/color_error", "largest colour error, LSB, simulated"),
-    least("z_bound", "/report/comparison/z_bound_for_input", "bound of it for these triangles, LSB, proved"),
+    least(
+        "z_bound",
+        "/report/comparison/z_bound_for_input",
+        "bound of it at pixels inside these triangles, LSB, proved",
+    ),
     least(
         "color_bound",
         "/report/comparison/color_bound_for_input",
-        "bound of it for these triangles, LSB, proved",
+        "bound of it at pixels inside these triangles, LSB, proved",
     ),
     least(
         "shading_error",

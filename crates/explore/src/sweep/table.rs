@@ -33,10 +33,12 @@ pub struct Candidate<'t> {
 }
 
 impl<'t> Candidate<'t> {
-    /// The first row, which says what machine it is.
+    /// The row that says what machine it is: the first with a scene, as a triangle file brings its own screen, else the
+    /// first.
     #[must_use]
     pub fn row(&self) -> &'t Value {
-        self.all().next().unwrap_or(&Value::Null)
+        let scene = self.all().find(|row| !row["shading"].is_null());
+        scene.or_else(|| self.all().next()).unwrap_or(&Value::Null)
     }
 
     /// All rows.

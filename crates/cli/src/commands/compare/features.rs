@@ -11,7 +11,7 @@ mod page;
 mod page_file;
 mod text;
 
-use super::{Args, Asked, apart, drawn};
+use super::{Args, Asked, apart, drawn, verdict};
 use crate::Talk;
 use crate::cell_energy::{CellEnergy, Drawing};
 use crate::cost::Synthesiser;
@@ -111,19 +111,21 @@ impl Picture {
     fn value(&self) -> Result<Value> {
         let report = serde_json::to_value(&self.report)?;
         let at = |place: &str| report.pointer(place).cloned().unwrap_or(Value::Null);
+        // Of an open picture nothing was compared.
+        let error = |place: &str| if self.verdict == Verdict::Open { Value::Null } else { at(place) };
         Ok(json!({
             "cycles": at("/cycles/total"),
             "map_cycles": self.maps,
             "all_cycles": at("/cycles/total").as_u64().map(|cycles| cycles + self.maps),
             "fragments": at("/fragments"),
             "bytes": at("/traffic/bytes"),
-            "z_error": at("/comparison/z_error"),
-            "color_error": at("/comparison/color_error"),
+            "z_error": error("/comparison/z_error"),
+            "color_error": error("/comparison/color_error"),
             "shading_error": self.distance.map(|distance| distance.largest),
             "shading_mean": self.distance.map(|distance| distance.mean),
             "form_error": self.from_form.map(|distance| distance.largest),
             "form_mean": self.from_form.map(|distance| distance.mean),
-            "verdict": if self.verdict == Verdict::Mismatch { text::MISMATCH } else { "pass" },
+            "verdict": self.verdict.word(),
         }))
     }
 }
@@ -202,6 +204,7 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
     out.publish(&FILES)?;
     page.map(|page| page.publish(&page::page(&told))).transpose()?;
     talk.say(|| Ok(json.clone()), || text.clone())?;
+    synthesiser.iter().try_for_each(Synthesiser::check_any)?;
     Ok(verdict)
 }
 
@@ -236,10 +239,8 @@ fn picture(column: &Column, input: &Input, args: &Args, machine: &MachineArgs) -
         measure.iter_mut().chain(&mut of_form).for_each(|measure| measure.add(raster));
         Ok(())
     })?;
-    let verdict = report.comparison.as_ref().map_or(Verdict::Vacuous, |found| found.verdict());
-    let drawn = &report.drawn;
-    let primitives = drawn.triangles + drawn.polygons + drawn.lines;
-    let verdict = verdict.or_nothing(input.name(), primitives, (asked.plan.width, asked.plan.height))?;
+    let size = (asked.plan.width, asked.plan.height);
+    let verdict = verdict(&report).or_nothing(input.name(), report.drawn.primitives(), size)?;
     let distance = measure.map(Measure::distance);
     // What shades at the corners draws the scene's own equation.
     let from_form = of_form.map(Measure::distance).or(distance);

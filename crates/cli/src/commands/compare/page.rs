@@ -22,6 +22,8 @@ pub struct Side {
     pub shading: Option<&'static str>,
     /// What `render` says of it.
     pub report: Report,
+    /// Its picture beside golden's.
+    pub verdict: Verdict,
     /// How far the picture is from the shading equation, where the shadings differ.
     pub distance: Option<Distance>,
     /// What it costs, if asked for.
@@ -79,10 +81,10 @@ impl Page {
         self.sides[0].report.drawn.primitives()
     }
 
-    /// Pass if both were drawn: that they differ is what is asked for.
+    /// The worse of both: that they differ from each other is what is asked for.
     pub fn verdict(&self) -> Verdict {
-        let [a, b] = self.sides.each_ref().map(|side| Verdict::drew(side.report.drawn.fragments));
-        a.and(b)
+        let [a, b] = &self.sides;
+        a.verdict.and(b.verdict)
     }
 
     /// Keys whose values differ, with both.
@@ -147,6 +149,7 @@ impl Page {
                 "machine": side.name,
                 "hash": side.plan.hash(),
                 "shading": side.shading,
+                "verdict": side.verdict.word(),
                 "report": self.values[place],
             });
             if let Some(distance) = side.distance {
@@ -188,7 +191,13 @@ impl Page {
         _ = writeln!(t, "{}, stalls {}", self.input, self.waits);
         for (label, side) in [("a", a), ("b", b)] {
             let shading = side.shading.map_or_else(String::new, |shading| format!(", shading {shading}"));
-            _ = writeln!(t, "{label}: {} ({}){shading}", side.name, side.plan.hash());
+            let verdict = side.verdict.word();
+            _ = writeln!(
+                t,
+                "{label}: {} ({}){shading}, beside golden: {verdict}",
+                side.name,
+                side.plan.hash()
+            );
         }
         _ = writeln!(t, "{:<30}{:>16}{:>16}", "keys", "a", "b");
         for (name, a, b) in self.keys() {

@@ -1,6 +1,7 @@
 //! How right the outputs of a machine are, and how many fraction bits its screen needs.
 
-use edgewalk_machine::{Channel, EdgeKind, Fill, NoBound, Plan};
+use edgewalk_judge::verdict::{EVERY_PIXEL, holds};
+use edgewalk_machine::{Channel, Fill, NoBound, Plan};
 use edgewalk_numerics::solver::solve;
 use edgewalk_numerics::{ChannelBits, Dyadic, Rounding, Solution, Target, Witness};
 use serde::Serialize;
@@ -11,14 +12,11 @@ use std::fmt::Write as _;
 pub struct Precision {
     /// Where the additions behind a fragment come from, and how many there are at most.
     additions: String,
-    /// The pixels for which bounds hold: a slope edge also draws pixels outside the triangle.
+    /// The pixels for which bounds hold.
     holds: &'static str,
     z: Proof,
     color: Proof,
 }
-
-/// Where the walk of the edges is exact.
-const EVERY_PIXEL: &str = "every pixel";
 
 /// What is proved of a channel.
 #[derive(Serialize)]
@@ -43,10 +41,7 @@ impl Precision {
     pub fn of(machine: &Plan) -> Self {
         Precision {
             additions: machine.screen().to_string(),
-            holds: match machine.edge_kind {
-                EdgeKind::Exact => EVERY_PIXEL,
-                EdgeKind::Slope => "pixels inside the triangle",
-            },
+            holds: holds(machine),
             z: Proof::of(machine, 0, "z"),
             color: Proof::of(machine, 1, "color"),
         }

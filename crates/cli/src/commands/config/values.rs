@@ -2,6 +2,7 @@
 
 use super::Precision;
 use crate::estimator::Estimator;
+use edgewalk_judge::verdict::{EVERY_PIXEL, holds};
 use edgewalk_machine::Plan;
 use edgewalk_machine::key::{Domain, Key};
 use serde::Serialize;
@@ -27,6 +28,9 @@ pub struct Consequence {
     bounds: [Option<f64>; 2],
     /// Why there is none.
     no_bounds: [Option<String>; 2],
+    /// The pixels for which bounds hold.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    holds: Option<&'static str>,
     /// What `edgewalk estimate` says.
     estimate: Value,
 }
@@ -61,6 +65,7 @@ pub fn consequences(machine: &Plan, key: &Key) -> Vec<Consequence> {
             no_bounds: proofs
                 .as_ref()
                 .map_or([None, None], |proofs| proofs.bounds().map(|(_, why)| why.map(str::to_owned))),
+            holds: plan.map(|plan| holds(plan)),
             estimate: plan.map_or(Value::Null, |plan| estimator.value(plan)),
         }
     };
@@ -103,6 +108,9 @@ pub fn text(all: &[Consequence]) -> String {
         );
     }
     t += "  * this machine; bounds in LSB, proved; est_* by `edgewalk estimate`, of an iCE40\n";
+    if let Some(some) = all.iter().filter_map(|of| of.holds).find(|holds| *holds != EVERY_PIXEL) {
+        _ = writeln!(t, "  bounds of slope edges hold at {some}");
+    }
     let mut told = Vec::new();
     for (bound, why) in all.iter().flat_map(|of| ["z", "rgb"].into_iter().zip(&of.no_bounds)) {
         if let Some(why) = why

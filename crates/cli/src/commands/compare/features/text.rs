@@ -1,5 +1,6 @@
 //! The table of features as text: a column a machine.
 
+use crate::verdict::Verdict;
 use serde_json::Value;
 use std::fmt::Write as _;
 
@@ -62,6 +63,10 @@ pub fn rows(told: &Value) -> Vec<Row> {
         ("bits of memory", "/memory_bits"),
     ];
     rows.extend(whole.map(|(name, place)| row(name.to_owned(), &|_| Some(place.to_owned()))));
+    let reasons = |machine: &Value| machine["synth"]["reasons"].as_array().map_or(0, Vec::len);
+    for place in 0..machines.iter().map(reasons).max().unwrap_or(0) {
+        rows.push(row("not measured".to_owned(), &|_| Some(format!("/synth/reasons/{place}"))));
+    }
     let inputs = told["inputs"].as_array().into_iter().flatten().filter_map(Value::as_str);
     for (number, input) in inputs.enumerate() {
         for (name, key) in [
@@ -87,7 +92,7 @@ pub fn rows(told: &Value) -> Vec<Row> {
         rows.push(row(format!("{input}: beside golden"), &|machine| {
             let verdict = format!("/inputs/{number}/verdict");
             // A picture that passes needs no word.
-            (machine.pointer(&verdict)? == MISMATCH).then_some(verdict)
+            (machine.pointer(&verdict)? != Verdict::Pass.word()).then_some(verdict)
         }));
         for unit in energies(machines, number) {
             let place = |_: &Value| Some(format!("/inputs/{number}/energy/energy/units/{unit}"));
@@ -150,13 +155,10 @@ pub fn text(told: &Value) -> String {
     t + &words.concat() + NOTE
 }
 
-/// The verdict on a picture that differs from golden's beyond its bounds.
-pub const MISMATCH: &str = "mismatch";
-
 /// What the figures are.
 pub const NOTE: &str = "est_*: estimates on an iCE40, of each unit alone and of the machine whole; LUT4 of a preset lie within 1 % of the sum of its units.\n\
     Bits of memory: outside the machine.\n\
     Shading error: distance from the shading equation at each pixel, LSB of 8 bits; of shadows, from the equation with shadows by rays.\n\
     Error of the form: distance from the form of that equation that SHADE draws: highlights of N·H, in Phong a viewer far away.\n\
-    Beside golden: a mismatch is a picture that errs beyond its bounds; `edgewalk render` of that machine tells the errors.\n\
+    Beside golden: a mismatch is a picture that errs beyond its bounds; of an open one no pixel was compared. `edgewalk render` tells more.\n\
     Energy: of the first triangles, in cells for 0.18 um without wires; it compares machines, and is no promise of a chip.\n";
