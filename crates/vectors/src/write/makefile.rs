@@ -33,8 +33,8 @@ impl Sources<'_> {
         self.modules.iter().copied().chain(["tb.v"]).collect()
     }
 
-    /// The Makefile.
-    pub fn makefile(&self) -> String {
+    /// The Makefile; `mark` is what the lines of the test bench begin with.
+    pub fn makefile(&self, mark: &str) -> String {
         let text = ["iverilog", "verilator"].iter().fold(MAKEFILE.to_owned(), |text, tool| {
             text.replace(&format!("{{{tool}}}"), edgewalk_tool::install(tool).unwrap_or_default())
         });
@@ -67,6 +67,7 @@ impl Sources<'_> {
             .replace("{top}", self.top)
             .replace("{hdl}", &self.hdl.join(" "))
             .replace("{bench}", &self.bench().join(" "))
+            .replace("{mark}", mark)
     }
 }
 
@@ -124,8 +125,12 @@ SIMULATOR = icarus
 {choice}{rules}
 # $(call needs,PROGRAM,HOW TO GET IT)
 needs = @command -v $(firstword $(1)) >/dev/null || { echo "$(firstword $(1)) is not installed; $(2)" >&2; exit 3; }
-# $(call judge,LOG): shows what a run printed, as far as anybody reads it; the verdict is in the file.
-judge = @cat $(1) || :; grep -qx PASS $(1) && ! grep -q "^rule broken:" $(1)
+# What the bench and the rules print begins with this mark.
+MARK = {mark}
+# $(call judge,LOG): shows what a run printed, as far as anybody reads it; the verdict is in the file. Lines without the mark
+# are the design's and the simulator's: they are shown behind |, and decide nothing.
+judge = @cat -v $(1) | sed -e "s/^/| /" -e "s/^.*$(MARK) //" || :; \
+	grep -q "$(MARK) PASS$$" $(1) && ! grep -q "$(MARK) rule broken:" $(1)
 
 .PHONY: all check icarus verilator lint cocotb clean
 all: icarus verilator lint
