@@ -25,7 +25,7 @@ const fn fault(
     Fault { file, from, to, case, said }
 }
 
-const FAULTS: [Fault; 14] = [
+const FAULTS: [Fault; 15] = [
     fault(
         "my_pixel.v",
         "always @(posedge aclk or negedge aresetn)\n    if (!aresetn) begin",
@@ -53,6 +53,13 @@ const FAULTS: [Fault; 14] = [
     ),
     fault("my_pixel.v", "if (!m_valid || m_ready) begin", "begin", "flat_top", "frag: cycle "),
     fault("my_depth.v", "less ? func[0]", "less ? func[1]", "flat_top", "wr: "),
+    fault(
+        "my_depth.v",
+        "new_z < data_z",
+        "new_z[23:1] < data_z[23:1]",
+        "nearer_by_each_bit_and_one_lsb_farther",
+        "wr: ",
+    ),
     fault(
         "my_depth.v",
         "addr[(first + i) & 15] == f_addr",
@@ -130,13 +137,10 @@ fn prints_of_the_design_are_not_the_benchs() {
     }
     // Without an end of the bench all lines are shown.
     let folder = folder();
-    edit(
-        folder.path(),
-        "my_depth.v",
-        "w_valid <= pass;",
-        "w_valid <= pass; $display(\"%cPASS\", 8'd7); $finish;",
-    );
-    let verify = ["verify", "--simulator", "icarus", "--dut", "depth.toml", "--only", "flat_top"];
+    edit(folder.path(), "pixel.toml", "compare", "widths = \"unchecked\"\ncompare");
+    let ends = "stage_valid <= 1'b1; $display(\"%cPASS\", 8'd7); $finish;";
+    edit(folder.path(), "my_pixel.v", "stage_valid <= 1'b1;", ends);
+    let verify = ["verify", "--simulator", "icarus", "--dut", "pixel.toml", "--only", "flat_top"];
     let (code, text) = told(&edgewalk(folder.path(), &verify));
     assert!(code == Some(2) && text.contains("icarus does not run the design"), "{text}");
     assert!(text.contains("\n\\u{7}PASS"), "{text}");
