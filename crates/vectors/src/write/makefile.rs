@@ -49,10 +49,6 @@ impl Sources<'_> {
             .replace("{standard}", self.dut.map_or("2001", Dut::standard))
             .replace("{include}", &listed(self.dut.map(include), |option| format!(" {option}")))
             .replace(
-                "{parameters}",
-                &listed(self.dut.map(parameters), |option| format!(" '{}'", option.replace('$', "$$"))),
-            )
-            .replace(
                 "{how}",
                 match self.dut.map(|dut| dut.compare) {
                     Some(Compare::Order) => "order and values count",
@@ -64,15 +60,22 @@ impl Sources<'_> {
             .replace("{modules}", rules::MODULES)
             .replace("{outside}", rules::OUTSIDE)
             .replace("{bind}", rules::BIND)
-            .replace("{top}", self.top)
+            .replace("{top}", &word(self.top))
             .replace("{hdl}", &self.hdl.join(" "))
             .replace("{bench}", &self.bench().join(" "))
             .replace("{mark}", mark)
+            // The last, as a text of a parameter can have any words.
+            .replace("{parameters}", &listed(self.dut.map(parameters), |option| format!(" {}", word(option))))
     }
 }
 
 fn listed(options: Option<Vec<String>>, written: impl Fn(&String) -> String) -> String {
     options.iter().flatten().map(written).collect()
+}
+
+/// A text in a recipe: make takes `$` for its own, and the shell whatever is not between `'`.
+fn word(text: &str) -> String {
+    format!("'{}'", text.replace('\'', r"'\''").replace('$', "$$"))
 }
 
 /// Folders for include lines, as options of both simulators.
