@@ -76,7 +76,7 @@ fn a_design_of_another_hand_passes_in_verilator() {
         told(&edgewalk(folder.path(), &["verify", "--dut", "pixel.toml", "--simulator", "verilator"]));
     assert_eq!(code, Some(0), "{text}");
     assert!(
-        text.contains("pass  directed        pixel    model = verilator  checked 15825 / 15825"),
+        text.contains("pass  directed        pixel    model = verilator  checked 15787 / 15787"),
         "{text}"
     );
 }

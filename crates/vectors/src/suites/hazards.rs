@@ -42,7 +42,6 @@ pub(super) fn cases(machine: &Plan) -> Vec<Case> {
         case("last_place_of_the_queue", last_place(&pen, machine.inflight)),
         case("two_writes_meet_a_third", two_writes(&pen, machine.inflight)),
         case("between_what_two_wrote", (0..5).flat_map(|n| between(&pen, 14 - 3 * n)).collect::<Vec<_>>()),
-        case("addresses_that_differ_in_one_bit", addresses(&pen)),
         case("one_pixel_again_around_half_depth", {
             [0.5, 0.4, 0.5, 0.6, 0.4, 1.0, 0.5, 0.0, 1.0].map(|z| pen.dot(5.0, 1.0, z))
         }),
@@ -128,20 +127,6 @@ fn last_place(pen: &Pen, places: u32) -> Vec<Triangle> {
 /// Two that pass, and one that fails by what the second wrote, though it would pass by what the first did.
 fn between(pen: &Pen, first: u32) -> [Triangle; 3] {
     [first, first - 2, first - 1].map(|z| pen.dot(1.0, 4.0, fifteenths(z)))
-}
-
-/// A pixel again and again nearer, and after each time one whose address differs from its own in a single bit, and which passes
-/// unless it is judged by the depth of the other. Columns along the last line, lines along the last column.
-fn addresses(pen: &Pen) -> Vec<Triangle> {
-    let (right, bottom) = (pen.size().0 - 1.0, pen.size().1 - 1.0);
-    let powers = |last: f64| (0..).map(|bit| f64::from(1u32 << bit)).take_while(move |power| *power <= last);
-    let columns = powers(right).map(|column| ((0.0, bottom), (column, bottom)));
-    let lines = powers(bottom).map(|line| ((right, 0.0), (right, line)));
-    let pairs = columns.chain(lines).enumerate();
-    let dots = pairs.map(|(i, (one, other))| {
-        [pen.dot(one.0, one.1, 0.8 - i as f64 / 32.0), pen.dot(other.0, other.1, 0.9)]
-    });
-    dots.flatten().collect()
 }
 
 /// Two that pass, as many that fail as fill the queue, and one that enters when the first is written and the second passes: it
