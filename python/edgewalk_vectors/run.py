@@ -34,17 +34,20 @@ def run(directory, simulator="icarus", results=None, module="edgewalk_vectors.in
     newer = any(str(name).endswith(".sv") for name in own["files"])
     options = {"icarus": ["-g2012" if newer else "-g2001"], "verilator": ["-Wno-fatal", "--timescale", "1ns/1ps"]}
     with tempfile.TemporaryDirectory() as work:
-        build = runner(simulator)
-        build.build(
-            sources=vectors.sources,
-            includes=own["include"],
-            parameters={name: value.strip('"') for name, value in own["parameters"].items()},
-            hdl_toplevel=vectors.module,
-            build_args=options.get(simulator, []),
-            build_dir=work,
-            timescale=("1ns", "1ps"),
-            always=True,
-        )
+        try:
+            build = runner(simulator)
+            build.build(
+                sources=vectors.sources,
+                includes=own["include"],
+                parameters=own["parameters"],
+                hdl_toplevel=vectors.module,
+                build_args=options.get(simulator, []),
+                build_dir=work,
+                timescale=("1ns", "1ps"),
+                always=True,
+            )
+        except (RuntimeError, SystemExit) as error:  # cocotb 2, cocotb 1.9
+            raise VectorsError(f"{simulator} does not build the design, or is not installed; see above: {error}") from error
         found = build.test(
             hdl_toplevel=vectors.module,
             test_module=module,

@@ -233,6 +233,35 @@ fn valids_that_wait_and_missing_resets_fail() {
     }
 }
 
+/// A text of a parameter is the design's as it stands; a design that does not compile is refused in words.
+#[test]
+#[ignore = "needs cocotb"]
+fn texts_of_parameters_and_broken_designs_under_cocotb() {
+    for simulator in simulators() {
+        let folder = tempfile::tempdir().expect("a folder");
+        own(folder.path());
+        let edit = |name: &str, from: &str, to: &str| {
+            let file = folder.path().join(name);
+            let text = fs::read_to_string(&file).expect("a file");
+            assert!(text.contains(from), "{name} has no `{from}`");
+            fs::write(file, text.replacen(from, to, 1)).expect("written");
+        };
+        edit("my_pixel.v", "parameter ZW", "parameter MODE = \"slow\",\n  parameter ZW");
+        edit("my_pixel.v", "dr <= step_r", "dr <= MODE == \"fast\" ? step_r : step_g");
+        edit("pixel.toml", "[parameters]", "[parameters]\nMODE = \"fast\"");
+        vectors(folder.path(), &["--dut", "pixel.toml", "--suite", "hazards"]);
+        let (code, text) = replayed(folder.path(), "v/hazards_pixel", &simulator);
+        assert_eq!(code, Some(0), "{simulator}: {text}");
+        edit("my_pixel.v", "endmodule", "endmodul");
+        let (code, text) = replayed(folder.path(), "v/hazards_pixel", &simulator);
+        let said = format!("error: {simulator} does not build the design");
+        assert!(
+            code == Some(2) && text.contains(&said) && !text.contains("Traceback"),
+            "{simulator}: {text}"
+        );
+    }
+}
+
 /// What the page shows is what the campaign runs.
 #[test]
 fn page_shows_the_test_of_two_lines() {

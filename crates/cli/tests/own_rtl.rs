@@ -76,7 +76,7 @@ fn a_design_of_another_hand_passes_in_verilator() {
         told(&edgewalk(folder.path(), &["verify", "--dut", "pixel.toml", "--simulator", "verilator"]));
     assert_eq!(code, Some(0), "{text}");
     assert!(
-        text.contains("pass  directed        pixel    model = verilator  checked 15739 / 15739"),
+        text.contains("pass  directed        pixel    model = verilator  checked 15787 / 15787"),
         "{text}"
     );
 }
@@ -283,6 +283,23 @@ fn a_run_without_a_suite_is_refused() {
         let (code, text) = told(&edgewalk(folder.path(), &arguments));
         assert!(code == Some(2) && text.contains("error: no suite was run, as none of those"), "{text}");
     }
+}
+
+/// A text of a parameter reaches bench and lint as it is, and no shell.
+#[test]
+fn texts_of_parameters_are_taken_as_they_are() {
+    let folder = folder();
+    edit(folder.path(), "my_pixel.v", "parameter ZW", "parameter TEXT = \"none\",\n  parameter ZW");
+    edit(folder.path(), "my_pixel.v", "endmodule", "  initial $display(\"%0s\", TEXT);\nendmodule");
+    let text = "x';touch planted;'$HOME`";
+    edit(folder.path(), "pixel.toml", "[parameters]", &format!("[parameters]\nTEXT = \"{text}\""));
+    let case = "one_pixel_again_and_again_nearer";
+    let arguments = ["vectors", "--dut", "pixel.toml", "--suite", "hazards", "--only", case, "--out", "v"];
+    let (code, said) = told(&edgewalk(folder.path(), &arguments));
+    assert_eq!(code, Some(0), "{said}");
+    let (passed, said) = made(folder.path(), "v/hazards_pixel", &["lint", "icarus"]);
+    assert!(passed && said.contains(&format!("\n| {text}\n")), "{said}");
+    assert!(!folder.path().join("v/hazards_pixel/planted").exists(), "the shell ran the text");
 }
 
 /// The example of the documents is the file that passes, and every key of a description stands there.

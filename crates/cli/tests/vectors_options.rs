@@ -81,6 +81,25 @@ fn a_seed_draws_triangles_and_stalls() {
     assert_eq!(own("two", "prim.willing.mem"), own("again", "prim.willing.mem"));
 }
 
+/// Two suites of one name would have one directory; a name given twice is given once.
+#[test]
+fn suites_of_one_name_are_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    std::fs::write(folder.join("hazards.tri"), triangles(&[0])).unwrap();
+    for (input, suite) in [("hazards.tri", "hazards"), ("sphere", "sphere")] {
+        let asked = ["vectors", input, "--suite", suite, "--unit", "edge", "--out", "refused"];
+        let (code, error) = run(folder, &[&asked[..], &SMALL].concat());
+        let said = format!("error: --suite {suite}: {input} is a suite named {suite} too");
+        assert!(code == Some(2) && error.starts_with(&said) && !folder.join("refused").exists(), "{error}");
+    }
+    let twice = ["--suite", "hazards", "--suite", "hazards", "--unit", "edge", "--unit", "edge"];
+    let arguments = [&["vectors", "--no-csv", "--json", "--out", "twice"], &twice[..], &SMALL].concat();
+    let output = edgewalk(folder, &arguments).output().unwrap();
+    let told: Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert_eq!(told["directories"], serde_json::json!(["hazards_edge"]));
+}
+
 #[test]
 fn stalls_are_those_asked_for() {
     let folder = tempfile::tempdir().unwrap();

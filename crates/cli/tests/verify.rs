@@ -136,7 +136,7 @@ fn a_missing_simulator_is_named() {
 }
 
 /// Tools of our own in place of the simulators: what the bench would print is `script`, run in the directory of vectors with
-/// $suite, $unit and $n, the number that its manifest expects.
+/// $suite, $unit, $n, the number that its manifest expects, and `say`, which prints a line as the bench does.
 fn fake_simulators(script: &str) -> tempfile::TempDir {
     use std::os::unix::fs::PermissionsExt as _;
     let folder = tempfile::tempdir().expect("a folder");
@@ -144,10 +144,11 @@ fn fake_simulators(script: &str) -> tempfile::TempDir {
         format!("$(sed -n 's/^ *\"{key}\": \"\\{{0,1\\}}\\([a-z_0-9]*\\).*/\\1/p' manifest.json | head -1)")
     };
     let bench = format!(
-        "#!/bin/sh\nsuite={} unit={} n={}\n{script}\n",
+        "#!/bin/sh\nsuite={} unit={} n={} hash={}\nsay() {{ echo \"edgewalk $hash: $*\"; }}\n{script}\n",
         value("name"),
         value("unit"),
-        value("expected")
+        value("expected"),
+        value("hash")
     );
     let binary = folder.path().join("bench");
     let build = format!(
@@ -165,7 +166,7 @@ fn fake_simulators(script: &str) -> tempfile::TempDir {
 }
 
 /// What a bench prints that has compared all.
-const HONEST: &str = "printf 'wrong 0\\nchecked %d / %d\\nPASS\\n' $n $n";
+const HONEST: &str = "say wrong 0; say checked $n / $n; say PASS";
 
 #[test]
 fn a_simulator_that_takes_too_long_is_ended() {
@@ -185,10 +186,10 @@ fn a_simulator_that_takes_too_long_is_ended() {
 fn a_simulator_that_is_wrong_does_not_pass() {
     let script = format!(
         "case $suite.$unit in\n\
-         hazards.setup) printf 'checked 0 / 0\\nPASS\\n';;\n\
-         hazards.edge) printf 'checked %d / %d\\nPASS\\n' $((n - 1)) $((n - 1));;\n\
-         hazards.span) printf 'frag: token 0: expected 1, found 2\\nchecked %d / %d\\nFAIL\\n' $n $n;;\n\
-         hazards.pixel) printf 'checked %d / %d\\nPASS\\n' $((n + 1)) $((n + 1));;\n\
+         hazards.setup) say checked 0 / 0; say PASS;;\n\
+         hazards.edge) say checked $((n - 1)) / $((n - 1)); say PASS;;\n\
+         hazards.span) say frag: token 0: expected 1, found 2; say checked $n / $n; say FAIL;;\n\
+         hazards.pixel) say checked $((n + 1)) / $((n + 1)); say PASS;;\n\
          *) {HONEST};;\nesac"
     );
     let tools = fake_simulators(&script);
@@ -214,7 +215,7 @@ fn a_simulator_that_is_wrong_does_not_pass() {
     assert!(text.contains("      frag: token 0: expected 1, found 2"), "{text}");
     assert_eq!(text.lines().filter(|line| line.starts_with("FAIL")).count(), 4, "the others pass: {text}");
     // One that says nothing, or only that it passed, is broken.
-    let tools = fake_simulators("echo PASS");
+    let tools = fake_simulators("say PASS");
     let path = format!("{}:{}", tools.path().display(), std::env::var("PATH").unwrap_or_default());
     let (code, text) = told(&verify(TRIANGLE, &[], Some(&path)));
     assert!(code == Some(3) && text.contains("icarus failed:\nPASS"), "{text}");

@@ -201,9 +201,14 @@ pub fn run(command: &mut Command, limit: Duration) -> Result<String, Stop> {
     Err(Stop::Broken { tool, lines })
 }
 
-/// Enough to see what is wrong.
+/// Enough to see what is wrong. Control characters are escaped: a terminal would obey them.
 pub fn first_lines<'a>(lines: impl Iterator<Item = &'a str>) -> Vec<String> {
-    lines.filter(|line| !line.trim().is_empty()).take(20).map(str::to_owned).collect()
+    let escaped = |letter: char| match letter {
+        c if c.is_control() && c != '\t' => c.escape_default().to_string(),
+        c => c.to_string(),
+    };
+    let lines = lines.filter(|line| !line.trim().is_empty()).take(20);
+    lines.map(|line| line.chars().map(escaped).collect()).collect()
 }
 
 #[cfg(test)]

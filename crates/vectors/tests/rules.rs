@@ -21,7 +21,7 @@ fn place(machine: &Plan, unit: Unit) -> (tempfile::TempDir, Vec<&'static str>) {
 
 /// The links whose rules say that they are at work.
 fn at_work(said: &str) -> Vec<&str> {
-    let lines = said.lines().filter_map(|line| line.strip_prefix("rules of ")?.strip_suffix(": at work"));
+    let lines = said.lines().filter_map(|line| line.split_once("rules of ")?.1.strip_suffix(": at work"));
     let mut links: Vec<&str> = lines.collect();
     links.sort_unstable();
     links
@@ -91,8 +91,8 @@ const FAULTS: [(&str, &str, &str); 4] = [
 
 /// The broken rules that were told, without times and values.
 fn broken(said: &str) -> Vec<String> {
-    let told = said.lines().filter_map(|line| line.strip_prefix("rule broken: "));
-    let told = told.map(|line| {
+    let told = said.lines().filter_map(|line| line.split_once("rule broken: "));
+    let told = told.map(|(_, line)| {
         let words = line.split(' ').map(|word| {
             let number = word.trim_end_matches(':');
             let is_number = number.chars().all(|c| c.is_ascii_hexdigit() || "xX".contains(c));

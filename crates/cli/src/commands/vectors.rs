@@ -7,7 +7,7 @@ use crate::number::whole;
 use crate::suites::{self, Set, check_unit, of_input, only, stalls};
 use crate::verdict::Verdict;
 use crate::{Talk, own};
-use anyhow::{Result, anyhow};
+use anyhow::{Result, anyhow, ensure};
 use edgewalk_files::Staging;
 use edgewalk_vectors::dut::Wiring;
 use edgewalk_vectors::{MAX_COUNT, SUITES, StallKind, Suite, Tables, Unit};
@@ -90,6 +90,17 @@ fn unit(name: &str) -> Result<Unit, String> {
     Unit::named(name).map_err(|e| e.to_string())
 }
 
+/// The list, with each of its entries once.
+fn once<T: Clone + PartialEq>(list: &[T]) -> Vec<T> {
+    let mut kept: Vec<T> = Vec::new();
+    for entry in list {
+        if !kept.contains(entry) {
+            kept.push(entry.clone());
+        }
+    }
+    kept
+}
+
 /// Runs the command.
 pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
     let (machine, input) = match &args.input {
@@ -108,18 +119,27 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
         None if args.unit.is_empty() => Unit::all(&machine),
         None => {
             args.unit.iter().try_for_each(|unit| check_unit(&machine, *unit))?;
-            args.unit.clone()
+            once(&args.unit)
         }
     };
     let all = args.input.is_none() && args.suite.is_empty();
+    let named = once(&args.suite);
     let names: Vec<&str> = match all {
         true => SUITES.iter().filter(|suite| suite.is_for(&machine)).map(|suite| suite.name).collect(),
-        false => args.suite.iter().map(String::as_str).collect(),
+        false => named.iter().map(String::as_str).collect(),
     };
-    let named = names.iter().map(|name| {
+    if let (Some(input), Some(suite)) = (&args.input, &input) {
+        ensure!(
+            !names.contains(&suite.name.as_str()),
+            "--suite {0}: {input} is a suite named {0} too; permitted: suites of different names; rename the file, or \
+             write it into another --out",
+            suite.name
+        );
+    }
+    let built_in = names.iter().map(|name| {
         Suite::named(&machine, name, args.seed, args.count).map_err(|e| anyhow!("--suite {name}: {e}"))
     });
-    let suites = input.into_iter().map(Ok).chain(named).collect::<Result<Vec<_>>>()?;
+    let suites = input.into_iter().map(Ok).chain(built_in).collect::<Result<Vec<_>>>()?;
     // Of the suites that are not named those that say something about one of the units.
     let fits = |suite: &Suite| !all || units.iter().any(|unit| suite.is_for(*unit));
     let suites = only(suites.into_iter().filter(fits).collect(), &args.only)?;

@@ -2,6 +2,7 @@
 
 use super::{FUNCTIONS, LONG, edgewalk, edit, folder, told};
 use std::fs;
+use std::process::Command;
 
 /// A fault of one of the designs.
 struct Fault {
@@ -24,7 +25,7 @@ const fn fault(
     Fault { file, from, to, case, said }
 }
 
-const FAULTS: [Fault; 14] = [
+const FAULTS: [Fault; 15] = [
     fault(
         "my_pixel.v",
         "always @(posedge aclk or negedge aresetn)\n    if (!aresetn) begin",
@@ -52,6 +53,13 @@ const FAULTS: [Fault; 14] = [
     ),
     fault("my_pixel.v", "if (!m_valid || m_ready) begin", "begin", "flat_top", "frag: cycle "),
     fault("my_depth.v", "less ? func[0]", "less ? func[1]", "flat_top", "wr: "),
+    fault(
+        "my_depth.v",
+        "new_z < data_z",
+        "new_z[23:1] < data_z[23:1]",
+        "nearer_by_each_bit_and_one_lsb_farther",
+        "wr: ",
+    ),
     fault(
         "my_depth.v",
         "addr[(first + i) & 15] == f_addr",
@@ -100,6 +108,42 @@ fn faults_fail(simulator: &str, faults: impl Iterator<Item = &'static Fault>) {
 #[test]
 fn faults_of_both_designs_fail_in_icarus() {
     faults_fail("icarus", FAULTS.iter());
+}
+
+/// What a design prints is not the bench's: it decides nothing, hides nothing, and sends a terminal nothing.
+#[test]
+fn prints_of_the_design_are_not_the_benchs() {
+    let passes = "if (pass) $display(\"%c[31mPASS\\nPASS\\nchecked 1 / 1\", 8'd27);";
+    let fails = "$write(\"FAIL: \"); if (pass) $display(\"ports\\nchecked %0d / 1\", w_addr);";
+    for (prints, colour, code_of_verify, code_of_make) in [(passes, "^ 1", 1, 2), (fails, "", 0, 0)] {
+        let folder = folder();
+        edit(folder.path(), "my_depth.v", "w_valid <= pass;", &format!("w_valid <= pass; {prints}"));
+        edit(folder.path(), "my_depth.v", "w_rgb <= rgb[first];", &format!("w_rgb <= rgb[first] {colour};"));
+        let design = ["--dut", "depth.toml", "--only", "flat_top"];
+        let verify = [&["verify", "--simulator", "icarus"][..], &design].concat();
+        let (code, text) = told(&edgewalk(folder.path(), &verify));
+        assert_eq!(code, Some(code_of_verify), "{text}");
+        assert_eq!(text.contains("wr_b: expected "), code_of_verify == 1, "{text}");
+        assert!(!text.contains("PASS") && !text.contains('\x1b'), "{text}");
+        let vectors = ["vectors", "--suite", "corners", "--no-csv", "--quiet", "--out", "v"];
+        assert_eq!(told(&edgewalk(folder.path(), &[&vectors[..], &design].concat())).0, Some(0));
+        let mut make = Command::new("make");
+        make.env_remove("MAKEFLAGS").args(["-C", "v/corners_depth", "icarus"]).current_dir(folder.path());
+        let (code, text) = told(&make.output().expect("make is installed"));
+        assert_eq!(code, Some(code_of_make), "{text}");
+        assert!(text.contains("\nwrong ") && !text.contains('\x1b'), "{text}");
+        assert_eq!(text.contains("\nPASS\n"), code == Some(0), "{text}");
+        assert_eq!(text.contains("\n| PASS\n"), code != Some(0), "{text}");
+    }
+    // Without an end of the bench all lines are shown.
+    let folder = folder();
+    edit(folder.path(), "pixel.toml", "compare", "widths = \"unchecked\"\ncompare");
+    let ends = "stage_valid <= 1'b1; $display(\"%cPASS\", 8'd7); $finish;";
+    edit(folder.path(), "my_pixel.v", "stage_valid <= 1'b1;", ends);
+    let verify = ["verify", "--simulator", "icarus", "--dut", "pixel.toml", "--only", "flat_top"];
+    let (code, text) = told(&edgewalk(folder.path(), &verify));
+    assert!(code == Some(2) && text.contains("icarus does not run the design"), "{text}");
+    assert!(text.contains("\n\\u{7}PASS"), "{text}");
 }
 
 /// A design that never gives a token is wrong, and its description fits.

@@ -10,6 +10,7 @@ pub use synthesis::{Cells, synth_ice40};
 
 use crate::manifest::Manifest;
 use crate::read::{ReadError, read};
+use crate::write::mark;
 use edgewalk_tool::{first_lines, run};
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -94,9 +95,11 @@ pub fn simulate(
     let work = std::path::absolute(work).map_err(|error| Stop::file(work, &error))?;
     printed(simulator, &manifest, directory, &work, limit)
         .and_then(|text| {
-            let none =
-                || Stop::Broken { tool: simulator.name().to_owned(), lines: first_lines(text.lines()) };
-            verdict(&manifest, &text).ok_or_else(none)
+            let lines = of_bench(&manifest, &text);
+            let others = text.lines().filter(|line| !line.contains(&mark(&manifest.machine.hash)));
+            let said = lines.iter().copied().chain(others);
+            let none = || Stop::Broken { tool: simulator.name().to_owned(), lines: first_lines(said) };
+            verdict(&manifest, &lines).ok_or_else(none)
         })
         .map_err(|stop| match stop {
             Stop::Broken { lines, .. } if manifest.dut.is_some() && !compiler_failed(&lines) => {
@@ -191,31 +194,36 @@ fn hdl(manifest: &Manifest) -> Vec<&str> {
     names.filter(|name| name.starts_with("hdl/") && name.ends_with(".v")).collect()
 }
 
-/// What the test bench printed; `None` if it did not come to its end, or refused the ports of the design.
-fn verdict(manifest: &Manifest, text: &str) -> Option<Outcome> {
-    if text.lines().any(|line| line.starts_with("FAIL: ports")) {
+/// The lines of the test bench among all that was printed, without their mark.
+fn of_bench<'a>(manifest: &Manifest, text: &'a str) -> Vec<&'a str> {
+    let mark = mark(&manifest.machine.hash) + " ";
+    text.lines().filter_map(|line| Some(line.rsplit_once(&mark)?.1)).collect()
+}
+
+/// What the test bench found; `None` if it did not come to its end, or refused the ports of the design.
+fn verdict(manifest: &Manifest, lines: &[&str]) -> Option<Outcome> {
+    if lines.iter().any(|line| line.starts_with("FAIL: ports")) {
         return None;
     }
-    let counts = text.lines().find_map(|line| line.strip_prefix("checked "))?;
+    let counts = lines.iter().find_map(|line| line.strip_prefix("checked "))?;
     let (checked, expected) = counts.split_once(" / ")?;
     let (checked, expected): (u64, u64) = (checked.trim().parse().ok()?, expected.trim().parse().ok()?);
-    let passed =
-        text.lines().any(|line| line == "PASS") && checked == expected && expected == manifest.expected;
-    let vacuous = checked == 0 || text.lines().any(|line| line == "FAIL: nothing was compared");
+    let passed = lines.contains(&"PASS") && checked == expected && expected == manifest.expected;
+    let vacuous = checked == 0 || lines.contains(&"FAIL: nothing was compared");
     Some(match (vacuous, passed) {
         (true, _) => Outcome::Vacuous,
-        (false, true) => Outcome::Pass { checked, met: met(text) },
+        (false, true) => Outcome::Pass { checked, met: met(lines) },
         (false, false) => {
-            let beside = ["cycles ", "met ", "- "];
-            let told = text.lines().filter(|line| !beside.iter().any(|word| line.starts_with(word)));
-            Outcome::Mismatch { checked, expected: manifest.expected, lines: first_lines(told) }
+            let beside = ["cycles ", "met "];
+            let told = lines.iter().filter(|line| !beside.iter().any(|word| line.starts_with(word)));
+            Outcome::Mismatch { checked, expected: manifest.expected, lines: first_lines(told.copied()) }
         }
     })
 }
 
 /// Lines `met EVENT COUNT`.
-fn met(text: &str) -> BTreeMap<String, u64> {
-    let counts = text.lines().filter_map(|line| line.strip_prefix("met ")?.split_once(' '));
+fn met(lines: &[&str]) -> BTreeMap<String, u64> {
+    let counts = lines.iter().filter_map(|line| line.strip_prefix("met ")?.split_once(' '));
     counts.filter_map(|(event, count)| Some((event.to_owned(), count.trim().parse().ok()?))).collect()
 }
 
@@ -234,7 +242,7 @@ mod tests {
         let files = directory(&suite, &trace, &[], Tables::LeftOut);
         let manifest: Manifest = serde_json::from_slice(&files[0].1).expect("a manifest");
         let manifest = Manifest { expected: 7, ..manifest };
-        let judged = |text: &str| verdict(&manifest, text);
+        let judged = |text: &str| verdict(&manifest, &text.lines().collect::<Vec<_>>());
         let met = BTreeMap::from([("memory_stall".to_owned(), 12)]);
         let passed = "met memory_stall 12\nwrong 0\nchecked 7 / 7\nPASS\n";
         assert_eq!(judged(passed), Some(Outcome::Pass { checked: 7, met }));

@@ -1,7 +1,7 @@
 //! Degenerate and extreme shapes: the places where rasterizers have their faults.
 
 use super::pen::{Pen, case};
-use super::{Case, Triangle, ties};
+use super::{Case, Triangle, ladders, ties};
 use edgewalk_machine::Plan;
 
 const RAMP: [f64; 3] = [0.2, 0.5, 0.8];
@@ -19,6 +19,8 @@ pub(super) fn cases(machine: &Plan) -> Vec<Case> {
     cases.extend(at_the_screen_sides(&pen));
     cases.extend(extreme_values(&pen));
     cases.extend(ties::cases(machine));
+    // On a pixel that the other shapes leave alone, on any but the smallest screens.
+    cases.push(ladders::down(&pen, 0.0, pen.size().1 - 1.0));
     cases
 }
 

@@ -1,7 +1,7 @@
-//! The dots of `suites/functions.toml`: every depth function lets some pass and others not.
+//! The dots of `suites/functions.toml`, and each bit of a depth: every depth function lets some pass and others not.
 
-use super::Case;
 use super::pen::{Pen, case};
+use super::{Case, ladders};
 use edgewalk_machine::Plan;
 use serde::Deserialize;
 
@@ -27,5 +27,6 @@ pub(super) fn cases(machine: &Plan) -> Vec<Case> {
     #[allow(clippy::expect_used)]
     let file: File = toml::from_str(FILE).expect("a part of the program, read by every test of it");
     let dot = |[x, y, z]: &[f64; 3]| pen.dot(*x, *y, z / 15.0);
-    file.case.iter().map(|dots| case(&dots.name, dots.dots.iter().map(dot))).collect()
+    let of_file = file.case.iter().map(|dots| case(&dots.name, dots.dots.iter().map(dot)));
+    of_file.chain([ladders::down(&pen, 0.0, 4.0), ladders::up(&pen, 2.0, 4.0)]).collect()
 }

@@ -20,6 +20,7 @@ mod dither;
 mod functions;
 mod hazards;
 pub mod input;
+mod ladders;
 mod light;
 mod lines;
 mod own_map;

@@ -33,8 +33,8 @@ impl Sources<'_> {
         self.modules.iter().copied().chain(["tb.v"]).collect()
     }
 
-    /// The Makefile.
-    pub fn makefile(&self) -> String {
+    /// The Makefile; `mark` is what the lines of the test bench begin with.
+    pub fn makefile(&self, mark: &str) -> String {
         let text = ["iverilog", "verilator"].iter().fold(MAKEFILE.to_owned(), |text, tool| {
             text.replace(&format!("{{{tool}}}"), edgewalk_tool::install(tool).unwrap_or_default())
         });
@@ -49,10 +49,6 @@ impl Sources<'_> {
             .replace("{standard}", self.dut.map_or("2001", Dut::standard))
             .replace("{include}", &listed(self.dut.map(include), |option| format!(" {option}")))
             .replace(
-                "{parameters}",
-                &listed(self.dut.map(parameters), |option| format!(" '{}'", option.replace('$', "$$"))),
-            )
-            .replace(
                 "{how}",
                 match self.dut.map(|dut| dut.compare) {
                     Some(Compare::Order) => "order and values count",
@@ -64,14 +60,22 @@ impl Sources<'_> {
             .replace("{modules}", rules::MODULES)
             .replace("{outside}", rules::OUTSIDE)
             .replace("{bind}", rules::BIND)
-            .replace("{top}", self.top)
+            .replace("{top}", &word(self.top))
             .replace("{hdl}", &self.hdl.join(" "))
             .replace("{bench}", &self.bench().join(" "))
+            .replace("{mark}", mark)
+            // The last, as a text of a parameter can have any words.
+            .replace("{parameters}", &listed(self.dut.map(parameters), |option| format!(" {}", word(option))))
     }
 }
 
 fn listed(options: Option<Vec<String>>, written: impl Fn(&String) -> String) -> String {
     options.iter().flatten().map(written).collect()
+}
+
+/// A text in a recipe: make takes `$` for its own, and the shell whatever is not between `'`.
+fn word(text: &str) -> String {
+    format!("'{}'", text.replace('\'', r"'\''").replace('$', "$$"))
 }
 
 /// Folders for include lines, as options of both simulators.
@@ -124,8 +128,12 @@ SIMULATOR = icarus
 {choice}{rules}
 # $(call needs,PROGRAM,HOW TO GET IT)
 needs = @command -v $(firstword $(1)) >/dev/null || { echo "$(firstword $(1)) is not installed; $(2)" >&2; exit 3; }
-# $(call judge,LOG): shows what a run printed, as far as anybody reads it; the verdict is in the file.
-judge = @cat $(1) || :; grep -qx PASS $(1) && ! grep -q "^rule broken:" $(1)
+# What the bench and the rules print begins with this mark.
+MARK = {mark}
+# $(call judge,LOG): shows what a run printed, as far as anybody reads it; the verdict is in the file. Lines without the mark
+# are the design's and the simulator's: they are shown behind |, and decide nothing.
+judge = @cat -v $(1) | sed -e "s/^/| /" -e "s/^.*$(MARK) //" || :; \
+	grep -q "$(MARK) PASS$$" $(1) && ! grep -q "$(MARK) rule broken:" $(1)
 
 .PHONY: all check icarus verilator lint cocotb clean
 all: icarus verilator lint

@@ -140,18 +140,19 @@ fn all(suite: &Suite, trace: &Trace, design: Design, tables: Tables) -> Files {
     for (name, text) in ours {
         add(format!("hdl/{name}"), text.clone());
     }
+    let mark = mark(&trace.plan.hash());
+    let marked =
+        |text: &str| format!("{stamp}\n{}", text.replace("$display(\"", &format!("$display(\"{mark} ")));
     for (name, text) in modules {
-        add(name.to_owned(), format!("{stamp}\n{text}"));
+        add(name.to_owned(), marked(text));
     }
-    add(
-        "tb.v".to_owned(),
-        format!("{stamp}\n{}", testbench::testbench(&trace.plan, interface, &with_triangles, wiring)),
-    );
+    let bench = testbench::testbench(&trace.plan, interface, &with_triangles, wiring);
+    add("tb.v".to_owned(), marked(&bench));
     for (name, text) in rules::files(interface, wiring) {
-        add(name.to_owned(), format!("{stamp}\n{text}"));
+        add(name.to_owned(), marked(&text));
     }
-    add("filelist.f".to_owned(), stamp + &sources.filelist());
-    add("Makefile".to_owned(), trace.plan.stamp("#") + &sources.makefile());
+    add("filelist.f".to_owned(), format!("{stamp}{}", sources.filelist()));
+    add("Makefile".to_owned(), trace.plan.stamp("#") + &sources.makefile(&mark));
     let name = format!("{}_{}", suite.name, interface.unit.name());
     add("edgewalk.core".to_owned(), core::of_vectors(&trace.plan.stamp("#"), &name, &sources, &data));
     add(manifest::SCHEMA_FILE.to_owned(), manifest::SCHEMA.to_owned());
@@ -163,6 +164,11 @@ fn all(suite: &Suite, trace: &Trace, design: Design, tables: Tables) -> Files {
     json.push('\n');
     files.insert(0, (manifest::FILE.to_owned(), json.into_bytes()));
     files
+}
+
+/// What each line of the bench and of the rules begins with, so that nothing is taken for it that the design prints.
+pub(crate) fn mark(hash: &str) -> String {
+    format!("edgewalk {hash}:")
 }
 
 fn token_file(channel: &str, direction: Direction) -> String {

@@ -123,7 +123,7 @@ endmodule
 
 const HEAD: &str = r#"// What holds on each channel of {design}, a module a channel. Plain Verilog-2001.
 // rules_bind.sv binds them into the design, where the simulator has `bind`. Icarus has none: there rules_icarus.v is a second
-// top module beside the test bench. A broken rule prints a line that begins with "rule broken:", and `broken` counts it.
+// top module beside the test bench. A broken rule prints a line with "rule broken:", and `broken` counts it.
 // The first token of a channel prints a line too: so it is seen that the rules are at work.
 `timescale 1ns / 1ps
 `default_nettype none

@@ -38,7 +38,7 @@ pub fn modules(interface: &Interface, own: bool) -> Vec<(&'static str, &'static 
 pub fn testbench(plan: &Plan, interface: &Interface, known: &[&str], wiring: Option<&Wiring>) -> String {
     let mut device =
         wiring.map_or_else(|| device::reference(interface), |wiring| device::own(interface, wiring));
-    let mut text = header(&device);
+    let mut text = header(plan, &device);
     for channel in &interface.links {
         text.push_str(&channel_wires(channel));
     }
@@ -90,7 +90,7 @@ fn events_section(counted: &[(&str, String)]) -> String {
     text
 }
 
-fn header(device: &Device) -> String {
+fn header(plan: &Plan, device: &Device) -> String {
     let (cycles, bits) = &device.resets;
     let (clocks, counter) = match cycles.as_str() {
         "3" => ("Three clocks".to_owned(), format!("reg [{}:0]  resets = 3;", bits - 1)),
@@ -104,12 +104,13 @@ fn header(device: &Device) -> String {
         .replace("{clocks}", &clocks)
         .replace("{counter}", &counter)
         .replace("{cycles}", cycles)
+        .replace("{mark}", &super::mark(&plan.hash()))
 }
 
 const HEADER: &str = r#"// Replays the tokens of the .in.mem files into {module} and compares everything that comes out with
 // the .exp.mem files: every token in order, the cycle in which it moves (.cyc.mem), and the outputs of status.exp.mem
 // in every cycle. Missing and extra outputs, unknown bits and an empty comparison fail too.
-// The last lines say "checked n / expected" and PASS or FAIL.
+// Each line that the bench prints begins with "{mark}"; the last ones say "checked n / expected" and PASS or FAIL.
 //
 // Defined, ORDER_ONLY is for a design with other timing: only the order and the values of the tokens count then, and its
 // status ports, which it need not have, stay open. `make CHECK_CYCLES=0` defines it.
