@@ -292,7 +292,10 @@ fn open_layers_alone_are_nothing_compared() {
     let open = "depth lequal\nblend 1\nT 1 1 1 1 0 0 0.5  60 9 1 0 1 0 0.5  5 45 1 0 0 1 0.5\n";
     let (code, c, error) = compared(&format!("size 64 48\n{open}"), &[]);
     assert_eq!((code, &c["compared"], &c["order_undecided"]), (Some(2), &0.into(), &c["covered"]), "{c}");
-    assert!(error.contains("no pixel was compared: at each covered pixel two depths are nearer than their bound"), "{error}");
+    assert!(
+        error.contains("no pixel was compared: at each covered pixel two depths are nearer than their bound"),
+        "{error}"
+    );
     // Beside one that is sure the open pixels are left out.
     let sure = "T 40 30 0.5 1 0 0 0.5  60 30 0.5 0 1 0 0.5  40 45 0.5 0 0 1 0.5\n";
     let (code, c, error) = compared(&format!("size 64 48\n{open}{sure}"), &[]);

@@ -214,9 +214,10 @@ fn links_and_causes_can_be_read_by_day_and_by_night() {
     let sweep: Vec<&str> = ["sweep", "sphere"].into_iter().chain(vary).collect();
     let small = ["--set", "screen.width=64", "--set", "screen.height=48", "--out", "s", "--quiet"];
     assert_eq!(run(at, &[&sweep[..], &small].concat()), (Some(0), String::new()));
-    for (dark, arguments) in
-        [(false, &["--window-size=1000,900"][..]), (true, &["--window-size=1000,900", "--force-dark-mode"])]
-    {
+    for (dark, arguments) in [
+        (false, &["--window-size=1000,900"][..]),
+        (true, &["--window-size=1000,900", "--blink-settings=preferredColorScheme=0"]),
+    ] {
         let seen = seen_with(at, "s/report.html", READ, arguments);
         assert_eq!(seen["dark"], dark, "{seen}");
         assert!(seen["contrast"].as_f64() >= Some(4.5) && seen["letters"].as_f64() >= Some(20.0), "{seen}");

@@ -70,8 +70,8 @@ fn best_machine_has_the_screen_of_scenes() {
     let folder = inputs();
     let at = folder.path();
     let screen = ["--set", "screen.width=96", "--set", "screen.height=72"];
-    for inputs in [["a.tri", "sphere"], ["sphere", "a.tri"]] {
-        let words = [&inputs[..], &["--vary", "fifo.span=1,2", "--out", inputs[0]], &screen].concat();
+    for (inputs, out) in [(["a.tri", "sphere"], "file-first"), (["sphere", "a.tri"], "scene-first")] {
+        let words = [&inputs[..], &["--vary", "fifo.span=1,2", "--out", out], &screen].concat();
         let best = &told(at, &words)["best"]["cycles"];
         let file = best["file"].as_str().unwrap();
         let cycles = inputs.map(|input| {

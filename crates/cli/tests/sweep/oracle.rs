@@ -194,7 +194,7 @@ impl Machine {
         let all: Option<Vec<f64>> = (0..self.rows.len()).map(|memory| self.of_memory(memory, name)).collect();
         match judge {
             Judge::Only(memory) => self.of_memory(memory, name),
-            Judge::Sum if name == "cycles" => Some(all?.iter().sum()),
+            Judge::Sum if ["cycles", "bytes"].contains(&name) => Some(all?.iter().sum()),
             _ if name == "mhz" => Some(all?.into_iter().fold(f64::MAX, f64::min)),
             _ => Some(all?.into_iter().fold(f64::MIN, f64::max)),
         }

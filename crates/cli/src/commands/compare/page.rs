@@ -22,7 +22,7 @@ pub struct Side {
     pub shading: Option<&'static str>,
     /// What `render` says of it.
     pub report: Report,
-    /// Its picture beside golden's.
+    /// The picture of this side, beside golden's.
     pub verdict: Verdict,
     /// How far the picture is from the shading equation, where the shadings differ.
     pub distance: Option<Distance>,
