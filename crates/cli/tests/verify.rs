@@ -105,7 +105,7 @@ fn nothing_to_draw_is_nothing_checked() {
     let off = "T 0.1 0.1 0 1 0 0 0  0.2 0.1 0 0 1 0 0  0.1 0.2 1 0 0 1 0\n";
     // The tools that are not ours answer as a bench does to which no token came.
     let tools = fake_simulators(&format!(
-        "case $suite.$unit in\ninput.machine) printf 'checked 0 / %d\\nFAIL: nothing was compared\\n' $n;;\n\
+        "case $suite.$unit in\ninput.machine) say checked 0 / $n; say FAIL: nothing was compared;;\n\
          *) {HONEST};;\nesac"
     ));
     let path = format!("{}:{}", tools.path().display(), std::env::var("PATH").unwrap_or_default());
