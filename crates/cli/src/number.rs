@@ -104,6 +104,7 @@ mod tests {
     }
 
     #[test]
+    #[allow(clippy::print_stdout)] // a test says how much it checked
     fn refused_numbers_are_told_what_is_permitted() {
         let mut root = Cli::command();
         root.build();

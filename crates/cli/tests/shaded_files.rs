@@ -1,4 +1,5 @@
 //! `edgewalk triangles --shading phong`: the file draws the picture of its scene, or there is no file.
+#![allow(clippy::unwrap_used)] // a test that unwraps nothing reports it
 
 use crate::support::{edgewalk, ended, report, run};
 
