@@ -92,7 +92,7 @@ pub struct Synthesiser {
     _scratch: Scratch,
     /// By the machine's hash.
     known: Mutex<BTreeMap<String, Cost>>,
-    /// What stopped the tools last.
+    /// The last failure of a tool.
     stopped: Mutex<Option<Stop>>,
 }
 

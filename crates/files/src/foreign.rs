@@ -84,7 +84,7 @@ fn opened(path: &Path) -> std::io::Result<File> {
 }
 
 /// Whether the numbers of a header are decimal and their product fits into 64 bits. Crate `npyz` multiplies the lengths of a shape and
-/// panics beyond. Lengths of 0 count as 1, as it also multiplies some of them.
+/// panics beyond. A length of 0 counts as 1: `npyz` also multiplies parts of the shape.
 fn are_countable(header: &str) -> bool {
     let words = header.split(|letter: char| !letter.is_alphanumeric() && letter != '_');
     let mut numbers = words.filter(|word| word.starts_with(|letter: char| letter.is_ascii_digit()));

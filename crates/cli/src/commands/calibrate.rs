@@ -112,7 +112,7 @@ pub fn run(args: &Args, talk: Talk) -> Result<Verdict> {
     let mut rows = Measured::rows(&table).map_err(|why| anyhow!("{}: {why}", data.display()))?;
     of_one_family(&rows, family, &data)?;
     if let (Some(unit), 1..) = (&args.unit, args.count) {
-        // Rows of --unit are all held out; a machine's are such as a fit is checked by.
+        // All rows of --unit are held out. A fit is checked by held-out rows of whole machines.
         let machine = |part: &str| part == Part::MACHINE.name();
         let there = rows.iter().filter(|row| row.held_out && machine(&row.part)).count();
         both(&data, there + usize::from(machine(unit)), rows.iter().all(|row| row.held_out))?;

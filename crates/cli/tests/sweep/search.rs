@@ -125,7 +125,7 @@ fn a_search_is_never_called_exhaustive() {
         assert!(page.contains(&words.join(" ")), "the page's command is another");
         assert!(best.contains("looked at, not of all,"), "{best}");
     }
-    // Of so many combinations nobody looks which are the same machine.
+    // Combinations beyond 2^20 are not searched for equal machines.
     let wide = [
         "--vary",
         "fifo.inflight=1..16",

@@ -81,7 +81,7 @@ impl Page {
         self.sides[0].report.drawn.primitives()
     }
 
-    /// The worse of both: that they differ from each other is what is asked for.
+    /// The worse verdict of both sides. A difference between the sides is no fault.
     pub fn verdict(&self) -> Verdict {
         let [a, b] = &self.sides;
         a.verdict.and(b.verdict)

@@ -290,7 +290,7 @@ impl<'o> Outcome<'o> {
             return Ok(Verdict::Mismatch);
         }
         let known = of(Status::Ok).chain(of(Status::Pruned)).count();
-        // What was drawn and could be compared failed in a tool.
+        // A row that was drawn and compared, and failed in a tool.
         let broken = of(Status::Failed).find(|row| row["report"].is_object() && row["verdict"] != "open");
         match of(Status::Timeout).next().or(broken) {
             Some(row) if known == 0 => Err(NoFigures {
