@@ -132,7 +132,17 @@ pub fn golden_fill(machine: &Plan) -> edgewalk_golden::Fill {
 /// Golden's drawing of a frame by the rules of this machine, with its screen door.
 #[must_use]
 pub fn golden_drawing<'a>(frame: &'a edgewalk_scene::Frame, machine: &Plan) -> edgewalk_golden::Drawing<'a> {
-    let drawing = edgewalk_golden::Drawing::new(frame, golden_fill(machine));
+    golden_drawing_by(frame, machine, golden_fill(machine))
+}
+
+/// Likewise, by another rule of coverage.
+#[must_use]
+pub fn golden_drawing_by<'a>(
+    frame: &'a edgewalk_scene::Frame,
+    machine: &Plan,
+    fill: edgewalk_golden::Fill,
+) -> edgewalk_golden::Drawing<'a> {
+    let drawing = edgewalk_golden::Drawing::new(frame, fill);
     if machine.dither.drops() { drawing.with_screen_door(machine.blend.kt_bits) } else { drawing }
 }
 

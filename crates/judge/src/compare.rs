@@ -22,7 +22,7 @@ use channel::Tally;
 pub use channel::{ChannelError, DepthAndColor, ExtraError, Spread};
 pub use counts::Counts;
 use edgewalk_host::extra;
-use edgewalk_host::raster::{Cycles, Raster};
+use edgewalk_host::raster::{Cycles, Raster, golden_drawing};
 use edgewalk_host::reach::Reach;
 use edgewalk_host::shade::Proof;
 use edgewalk_machine::Plan;
@@ -33,7 +33,7 @@ pub(crate) use lit::gated;
 pub use lit::{Lights, Lit, Seen};
 use lit::{behind_gate, is_lit};
 use order::Orders;
-pub(crate) use order::{Over, all_over};
+pub(crate) use order::{Apart, Over, all_over};
 use serde::Serialize;
 
 /// What the comparison found.
@@ -120,7 +120,8 @@ fn compared(
     proof: Option<&Proof>,
 ) -> Comparison {
     let mut light = Lights::drawn(machine, frame, drawn, reach);
-    if let Some(layers) = Layers::of(machine, frame, light.as_mut(), proof, reach) {
+    let drawing = golden_drawing(frame, machine);
+    if let Some(layers) = Layers::of(machine, frame, &drawing, light.as_mut(), proof, reach) {
         let mut tally = Tally::new(machine, frame);
         let mut counts = Counts::new(machine, drawn.cycles.as_ref());
         let found = blended(&mut counts, &mut tally, &layers, (golden, drawn), light.as_mut());

@@ -7,7 +7,8 @@
 //!  outside's arrays ─┘              another triangle over the pixel ──────────────────> tie of depth, or wrong winner
 //!                                   none ─────────────────────────────────────────────> depth or colour beyond, by how much
 //! ```
-//! A pixel has the cause that is found first, in the order of [`Cause::ALL`].
+//! Of a frame of several layers the triangles over a pixel do not tell what shows. There a pixel whose coverage is right may differ
+//! where a depth test is open.
 
 pub mod picture;
 mod tolerance;
@@ -26,9 +27,9 @@ pub use tolerance::{Asked, Tolerance};
 use crate::compare::{Layers, Over, all_over};
 use crate::verdict::within;
 use anyhow::{Result, bail, ensure};
-use edgewalk_golden::Fill;
+use edgewalk_golden::{Drawing, Fill, Step};
 use edgewalk_host::input::cut_at_band;
-use edgewalk_host::raster::{Raster, from_golden, golden_fill};
+use edgewalk_host::raster::{Raster, from_golden, golden_drawing_by, golden_fill};
 use edgewalk_machine::Plan;
 use edgewalk_scene::{Blending, Frame, Primitive};
 use std::cmp::Ordering;
@@ -49,7 +50,8 @@ pub fn beside_golden(
         Rule::Textbook => Fill::Textbook,
         _ => Fill::Exact { subpixel_bits: machine.subpixel_bits },
     };
-    let golden = |frame: &Frame| from_golden(edgewalk_golden::draw(frame, fill), machine);
+    let golden =
+        |frame: &Frame| from_golden(golden_drawing_by(frame, machine, fill).lines(0..frame.height), machine);
     // The machine rounds the corners of a cut anew, which moves the plane. Both pictures are right.
     let cut = cut_at_band(frame, machine)?;
     let pieces = |turned: &dyn Fn(&Frame) -> Raster| {
@@ -63,24 +65,27 @@ pub fn beside_golden(
         })
     };
     if rule.is_plain() {
-        let references = (&golden(frame), pieces(&golden));
-        return judge(machine, frame, references, outside, tolerance, fill);
+        let reference = Reference { picture: &golden(frame), pieces: pieces(&golden), may_tie: true };
+        return judge(machine, frame, reference, outside, tolerance, fill);
     }
+    let mixes = frame.passes().iter().any(|pass| pass.state.blend == Blending::Mix);
+    let is_door = mixes && machine.dither.drops();
     let refused = [
         ("shadows", !frame.shadows.is_empty()),
         ("normals", frame.shading.is_some()),
         ("lines", !frame.lines.is_empty()),
+        ("glass of a screen door, whose pattern is that of the screen", is_door),
     ];
     if let Some((found, _)) = refused.into_iter().find(|(_, there)| *there) {
         bail!(
-            "rule {rule}: the frame has {found}; permitted with this rule: triangles and polygons without shadows and normals; judge it \
-             by top-left or textbook"
+            "rule {rule}: the frame has {found}; permitted with this rule: triangles and polygons without shadows, normals and \
+             screen door; judge it by top-left or textbook"
         );
     }
     let pieces = pieces(&|frame| golden(&rule.mirrored(frame, machine.subpixel_bits)));
     let frame = rule.mirrored(frame, machine.subpixel_bits);
-    let references = (&golden(&frame), pieces);
-    let judgement = judge(machine, &frame, references, &rule.turned(outside.clone()), tolerance, fill)?;
+    let reference = Reference { picture: &golden(&frame), pieces, may_tie: true };
+    let judgement = judge(machine, &frame, reference, &rule.turned(outside.clone()), tolerance, fill)?;
     Ok(judgement.turned(rule))
 }
 
@@ -96,13 +101,24 @@ pub fn beside_machine(
     outside: &Picture,
     tolerance: &Tolerance,
 ) -> Result<Judgement> {
-    judge(machine, frame, (drawn, None), outside, &tolerance.exact(), golden_fill(machine))
+    let reference = Reference { picture: drawn, pieces: None, may_tie: false };
+    judge(machine, frame, reference, outside, &tolerance.exact(), golden_fill(machine))
+}
+
+/// What a picture is judged by.
+struct Reference<'a> {
+    /// The picture that is right.
+    picture: &'a Raster,
+    /// Of a frame with triangles beyond the guard band: the other right picture.
+    pieces: Option<Raster>,
+    /// Depths that are near to one another may come out in any order.
+    may_tie: bool,
 }
 
 fn judge(
     machine: &Plan,
     frame: &Frame,
-    (reference, pieces): (&Raster, Option<Raster>),
+    Reference { picture: reference, pieces, may_tie }: Reference,
     outside: &Picture,
     tolerance: &Tolerance,
     fill: Fill,
@@ -117,7 +133,8 @@ fn judge(
         permitted.0,
         permitted.1
     );
-    let layers = Layers::of(machine, frame, None, None, None).filter(|_| !tolerance.is_asked_for);
+    let drawing = golden_drawing_by(frame, machine, fill);
+    let layers = Layers::of(machine, frame, &drawing, None, None, None).filter(|_| !tolerance.is_asked_for);
     let largest = layers.as_ref().map(|of| of.bound.iter().copied().fold(0.0, f64::max) + tolerance.step);
     let color_no_bound = layers.as_ref().and_then(|of| of.no_bound).or(tolerance.color_no_bound);
     let shown = Tolerance { layers: largest, color_no_bound, ..*tolerance };
@@ -137,6 +154,8 @@ fn judge(
     let judge = Judge { frame, primitives, stores_color, reference, outside, tolerance, layers };
     let pixels = reference.coverage.len();
     let differ: Vec<usize> = (0..pixels).filter(|pixel| !judge.agrees(*pixel)).collect();
+    let has_open = may_tie && !differ.is_empty() && !judge.is_plain();
+    let open = if has_open { judge.open(&drawing) } else { Vec::new() };
     let over = match fill {
         Fill::Exact { subpixel_bits } if judge.is_plain() => all_over(machine, frame, subpixel_bits, &differ),
         _ => BTreeMap::new(),
@@ -147,6 +166,9 @@ fn judge(
             let mut found = judge.why(pixel, over.get(&pixel).map_or(&[], Vec::as_slice));
             if pieces.as_ref().is_some_and(|pieces| judge.agrees_with(pieces, pixel)) {
                 found.cause = Cause::Piece;
+            }
+            if open.get(pixel) == Some(&true) && judge.covers(pixel) {
+                (found.cause, found.shown) = (Cause::Open, None);
             }
             judgement.differs(pixel, found, |found| judge.edge(fill, found));
         } else {
@@ -176,6 +198,24 @@ impl Judge<'_> {
         let passes = self.frame.passes();
         let [pass] = &passes[..] else { return false };
         pass.state.blend == Blending::Off && pass.state.stores_depth() && self.frame.shading.is_none()
+    }
+
+    /// The pixels with a depth test that may come out in any way, as far as the tolerance goes.
+    fn open(&self, drawing: &Drawing) -> Vec<bool> {
+        let (frame, apart) = (self.frame, self.tolerance.apart());
+        let mut open = vec![false; self.reference.coverage.len()];
+        drawing.watched(0..frame.height, |step| {
+            if let Step::Tested { at, id, stored, gap } = step {
+                open[at] |= apart.leaves_open(frame, id, stored, gap);
+            }
+        });
+        open
+    }
+
+    /// Whether a covered pixel is covered as often as in the reference, as far as the picture says.
+    fn covers(&self, pixel: usize) -> bool {
+        let covered = self.reference.coverage[pixel];
+        covered > 0 && self.outside.coverage.as_ref().is_none_or(|own| own[pixel] == covered)
     }
 
     /// Errors of depth and colour at a pixel, LSB; 0 of what the outside picture does not have.

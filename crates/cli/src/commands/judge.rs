@@ -198,7 +198,7 @@ fn color(cause: u8) -> [u8; 3] {
         None => [0, 0, 0],
         Some(Cause::Missing) => [255, 0, 0],
         Some(Cause::Extra) => [255, 128, 0],
-        Some(Cause::Tie | Cause::Piece) => [0, 0, 160],
+        Some(Cause::Tie | Cause::Piece | Cause::Open) => [0, 0, 160],
         Some(Cause::WrongWinner) => [255, 0, 255],
         Some(Cause::Depth) => [255, 255, 0],
         Some(Cause::Color) => [0, 255, 255],

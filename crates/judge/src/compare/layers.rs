@@ -7,9 +7,8 @@ use super::lit::{Lights, Seen, share_error};
 use super::order::apart;
 use crate::shaded::Spread;
 use crate::verdict::in_words;
-use edgewalk_golden::Step;
+use edgewalk_golden::{Drawing, Step};
 use edgewalk_host::polygon::defects;
-use edgewalk_host::raster::golden_drawing;
 use edgewalk_host::reach::Reach;
 use edgewalk_host::shade::Proof;
 use edgewalk_machine::{NoBound, Plan};
@@ -75,10 +74,11 @@ impl Blended {
 impl Layers {
     /// `None` where every pixel shows one fragment as it is, or as a light leaves it or takes it away. `lights`: of the frame, if any counts;
     /// without them golden's shares of the colours are the only right ones. `proof`: of the colours of a frame that is shaded at each
-    /// pixel.
+    /// pixel. `drawing`: golden's of the frame.
     pub fn of(
         machine: &Plan,
         frame: &Frame,
+        drawing: &Drawing,
         mut lights: Option<&mut Lights>,
         proof: Option<&Proof>,
         reach: Option<&Reach>,
@@ -98,10 +98,9 @@ impl Layers {
             branches: vec![false; pixels],
         };
         let width = frame.width as usize;
-        golden_drawing(frame, machine).watched(0..frame.height, |step| match step {
+        drawing.watched(0..frame.height, |step| match step {
             Step::Tested { at, id, stored, gap } => {
-                let sure = apart.map(|apart| if stored < 0 { apart.cleared } else { apart.triangles });
-                layers.open[at] |= sure.is_some_and(|sure| gap < sure) && !same_depth(frame, id, stored);
+                layers.open[at] |= apart.is_some_and(|apart| apart.leaves_open(frame, id, stored, gap));
             }
             Step::Stored { at, id, z, own, light, share, kt, back, blend, .. } => {
                 layers.stored[at] += 1;
@@ -129,15 +128,6 @@ impl Layers {
         let mixes = passes[0].state.blend != Blending::Off && !machine.dither.drops();
         passes.len() > 1 || mixes || shares
     }
-}
-
-/// Triangles between the same points have the same depths in any machine, bit by bit.
-fn same_depth(frame: &Frame, id: i32, stored: i32) -> bool {
-    let points = |id: i32| {
-        let triangle = usize::try_from(id).ok().and_then(|id| frame.triangle_at(id));
-        triangle.map(|triangle| triangle.0.map(|v| [v.x, v.y, v.z]))
-    };
-    points(id).is_some_and(|own| points(stored) == Some(own))
 }
 
 /// What of a machine counts for the bound.

@@ -86,6 +86,23 @@ impl<'a> Orders<'a> {
     }
 }
 
+impl Apart {
+    /// Whether the test of a fragment beside the stored depth, of the triangle `stored` or the cleared one (below 0), may come out in any
+    /// way. `gap`: how far the exact depths are apart.
+    pub fn leaves_open(&self, frame: &Frame, id: i32, stored: i32, gap: f64) -> bool {
+        gap < (if stored < 0 { self.cleared } else { self.triangles }) && !same_depth(frame, id, stored)
+    }
+}
+
+/// Triangles between the same points have the same depths in any machine, bit by bit.
+fn same_depth(frame: &Frame, id: i32, stored: i32) -> bool {
+    let points = |id: i32| {
+        let triangle = usize::try_from(id).ok().and_then(|id| frame.triangle_at(id));
+        triangle.map(|triangle| triangle.0.map(|v| [v.x, v.y, v.z]))
+    };
+    points(id).is_some_and(|own| points(stored) == Some(own))
+}
+
 /// Bound 7 for any two fragments of the machine, or of triangles that reach so far.
 pub fn apart(machine: &Plan, frame: &Frame, reach: Option<&Reach>) -> Option<Apart> {
     let depth = &machine.channels()[0];

@@ -29,11 +29,13 @@ pub enum Cause {
     Light,
     /// The pixel is right for the pieces into which the machine's guard band cuts a triangle.
     Piece,
+    /// Of several layers at the pixel two have depths so near that the tolerance lets either win.
+    Open,
 }
 
 impl Cause {
-    /// All causes, in the order in which they are looked for.
-    pub const ALL: [Cause; 10] = [
+    /// All causes, in the order of reports.
+    pub const ALL: [Cause; 11] = [
         Cause::Missing,
         Cause::Extra,
         Cause::Tie,
@@ -44,6 +46,7 @@ impl Cause {
         Cause::LayerMissing,
         Cause::Light,
         Cause::Piece,
+        Cause::Open,
     ];
 
     /// In words.
@@ -60,13 +63,14 @@ impl Cause {
             Cause::LayerMissing => "covered less often",
             Cause::Light => "light decided otherwise",
             Cause::Piece => "right for a triangle cut at the guard band (allowed)",
+            Cause::Open => "open depth test among layers (allowed)",
         }
     }
 
-    /// Whether the pixel is wrong. A tie is not, nor a triangle as the machine cuts it.
+    /// Whether the pixel is wrong. A tie is not, nor an open depth test, nor a triangle as the machine cuts it.
     #[must_use]
     pub fn is_wrong(self) -> bool {
-        !matches!(self, Cause::Tie | Cause::Piece)
+        !matches!(self, Cause::Tie | Cause::Piece | Cause::Open)
     }
 }
 
@@ -133,6 +137,7 @@ impl Finding {
             Cause::Piece => {
                 format!(": {values_of}depth {z:.4} and colour {color:.4} LSB off golden's of all of it")
             }
+            Cause::Open => format!(": depth {z:.4} and colour {color:.4} LSB off {of}"),
             Cause::Light => String::new(),
         };
         at + &why
@@ -245,11 +250,13 @@ impl Judgement {
         self.causes.iter().filter(|count| count.wrong).map(|count| count.pixels).sum()
     }
 
-    /// Pass if pixels are covered and none is wrong.
+    /// Pass if pixels are covered and none is wrong. Where an open depth test is at each covered pixel, and none agrees, nothing was
+    /// compared.
     #[must_use]
     pub fn verdict(&self) -> Verdict {
         match (self.covered, self.wrong()) {
             (0, 0) => Verdict::Vacuous,
+            (covered, 0) if covered == self.causes[Cause::Open as usize].pixels => Verdict::Open,
             (_, wrong) => Verdict::of(self.pixels, self.agree + self.differ(), wrong),
         }
     }

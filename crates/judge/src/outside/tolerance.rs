@@ -1,6 +1,6 @@
 //! How far another rasterizer may be from the reference.
 
-use crate::compare::gated;
+use crate::compare::{Apart, gated};
 use crate::verdict::in_words;
 use edgewalk_host::polygon::defects;
 use edgewalk_machine::{Channel, NoBound, Plan};
@@ -102,5 +102,10 @@ impl Tolerance {
     /// Depths so near to one another may come out in any order, in 0 to 1: each errs by the tolerance, and both are rounded.
     pub(super) fn tie(&self) -> f64 {
         (2.0 * self.z + 1.0) * self.z_lsb
+    }
+
+    /// Likewise in the depth tests of a frame of several layers; the cleared depth has no error.
+    pub(super) fn apart(&self) -> Apart {
+        Apart { triangles: self.tie(), cleared: (self.z + 0.5) * self.z_lsb }
     }
 }
