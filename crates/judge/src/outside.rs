@@ -218,6 +218,13 @@ impl Judge<'_> {
         covered > 0 && self.outside.coverage.as_ref().is_none_or(|own| own[pixel] == covered)
     }
 
+    /// Whether the picture says that nothing covers a pixel.
+    fn is_uncovered(&self, pixel: usize) -> bool {
+        let Picture { id, coverage, .. } = self.outside;
+        let by_count = || coverage.as_ref().is_some_and(|own| own[pixel] == 0);
+        id.as_ref().map_or_else(by_count, |own| own[pixel] == -1)
+    }
+
     /// Errors of depth and colour at a pixel, LSB; 0 of what the outside picture does not have.
     fn errors(&self, pixel: usize) -> [f64; 2] {
         self.beside(pixel, self.reference.z[pixel], self.reference.rgb[pixel])
@@ -283,7 +290,9 @@ impl Judge<'_> {
         let cause = match (covered, winner) {
             (_, true) => self.counts(pixel),
             (true, false) if background || more == Some(Ordering::Less) => Cause::Missing,
-            (false, false) => Cause::Extra,
+            (false, false) if !self.is_uncovered(pixel) => Cause::Extra,
+            (false, false) if within(z, self.permitted(pixel)[0]) => Cause::Color,
+            (false, false) => Cause::Depth,
             (true, false) if more == Some(Ordering::Greater) => Cause::Extra,
             (true, false) => match other() {
                 Some(other) if triangle >= 0 && self.ties(pixel, other) => Cause::Tie,

@@ -76,7 +76,7 @@ fn rgb(picture: &mut Picture, pixel: usize) -> &mut [f64; 3] {
 
 #[test]
 fn each_array_wrong_alone_is_one_wrong_pixel() {
-    let faults: [(Fault, Cause); 15] = [
+    let faults: [(Fault, Cause); 18] = [
         (|p| *z(p, UNDER) += 3.0 * Z, Cause::Depth),
         (|p| *z(p, UNDER) -= 3.0 * Z, Cause::Depth),
         (|p| *z(p, UNDER) = f64::NAN, Cause::Depth),
@@ -90,13 +90,16 @@ fn each_array_wrong_alone_is_one_wrong_pixel() {
         (|p| p.coverage.as_mut().unwrap()[UNDER] = 1, Cause::LayerMissing),
         (|p| p.id.as_mut().unwrap()[UNDER] = 0, Cause::WrongWinner),
         (|p| p.lit.as_mut().unwrap()[UNDER] = 1, Cause::Light),
-        (|p| *z(p, LAST) = 0.5, Cause::Extra),
+        (|p| *z(p, LAST) = 0.5, Cause::Depth),
+        (|p| rgb(p, LAST)[1] = 0.5, Cause::Color),
+        (|p| p.id.as_mut().unwrap()[LAST] = 1, Cause::Extra),
+        (|p| (*z(p, LAST), p.id, p.coverage) = (0.5, None, None), Cause::Extra),
         (|p| (*z(p, UNDER), *rgb(p, UNDER)) = (0.75, [1.0, 0.0, 0.0]), Cause::WrongWinner),
     ];
     for (place, (fault, cause)) in faults.into_iter().enumerate() {
         let judgement = after(|picture| {
             fault(picture);
-            if place == 14 {
+            if place == 17 {
                 picture.id = None;
             }
         });
