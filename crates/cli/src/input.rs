@@ -8,7 +8,7 @@ use edgewalk_golden::{HiddenLines, Order, wireframe_in_lines};
 use edgewalk_host::extra;
 use edgewalk_host::faces::joined;
 use edgewalk_host::input::{as_large, fitting, in_triangles};
-use edgewalk_host::needs::needs;
+use edgewalk_host::needs::{maps as of_maps, needs};
 pub use edgewalk_host::port::{PortFrame, draw_state, to_port};
 use edgewalk_host::raster::golden_fill;
 use edgewalk_host::vertices::guard_band;
@@ -167,6 +167,11 @@ impl Source {
 
     /// The machine asked for, with the screen of a triangle file, and with --adapt with all keys that the input asks for.
     pub fn machine(&self, args: &MachineArgs) -> Result<Plan> {
+        self.machine_with_maps(args, false)
+    }
+
+    /// Likewise; `maps`: each light of a scene has a map.
+    pub fn machine_with_maps(&self, args: &MachineArgs, maps: bool) -> Result<Plan> {
         let screen = self.screen()?;
         if !self.adapt {
             return args.machine(screen);
@@ -190,7 +195,16 @@ impl Source {
                     self.frame_of(&scene, &surface, machine)?.0
                 }
             };
-            Ok(needs(drawn.insert(frame), machine))
+            let frame = drawn.insert(frame);
+            let mut all = needs(frame, machine);
+            if maps {
+                let more: Vec<_> = of_maps(frame, machine)
+                    .into_iter()
+                    .filter(|of| all.iter().all(|need| need.key != of.key))
+                    .collect();
+                all.extend(more);
+            }
+            Ok(all)
         })
     }
 

@@ -513,3 +513,30 @@ fn screen_doors_are_judged() {
     assert_eq!(code, Some(1), "{error}");
     assert!(report["wrong"].as_u64().unwrap() > 300, "{report}");
 }
+
+/// A PNG has bits of its own, to which it rounds the machine's colours.
+#[test]
+fn pngs_of_machines_of_other_bits_are_right() {
+    let folder = folder(TWO);
+    for (bits, others) in [("6", "7"), ("4", "5"), ("12", "5")] {
+        let with = |bits: &str| ["--set".to_owned(), format!("formats.color_bits={bits}")];
+        for (out, bits) in [("own", bits), ("other", others)] {
+            let [set, key] = with(bits);
+            let words = ["render", "in.tri", "--out", out, &set, &key];
+            assert_eq!(ended(&edgewalk(folder.path(), &words).output().unwrap()).0, Some(0), "{words:?}");
+        }
+        let [set, key] = with(bits);
+        for (picture, code) in [("own/image.png", Some(0)), ("other/image.png", Some(1))] {
+            let (found, report, error) =
+                judged(folder.path(), &[picture, "--against", "machine", &set, &key]);
+            assert_eq!(found, code, "{bits}: {error}{report}");
+            assert_eq!(report["wrong"].as_u64().unwrap() > 100, code == Some(1), "{bits}: {report}");
+        }
+        let (found, report, error) = judged(folder.path(), &["own/image.png", &set, &key]);
+        assert_eq!((found, &report["wrong"]), (Some(0), &0.into()), "{bits}: {error}");
+        // What the user asks for holds as it is.
+        let asked = ["own/image.png", "--color-lsb", "0.5", &set, &key];
+        let (_, report, _) = judged(folder.path(), &asked);
+        assert_eq!(report["tolerance"]["color"], 0.5, "{bits}");
+    }
+}

@@ -1,5 +1,6 @@
 //! Shadows through the program: lit.npy of the page of the format, and who has none.
 
+use crate::support::ended;
 use std::path::Path;
 use std::process::{Command, Output};
 
@@ -85,6 +86,22 @@ fn scenes_have_their_shadows_on_the_machine() {
     }
     println!("{pixels} pixels, {dark} in shadow, {differ} decided otherwise than golden, 0 unexplained");
     assert!(pixels > 15_000 && dark > 1_000 && differ < pixels / 50, "{pixels} {dark} {differ}");
+}
+
+/// `--adapt` gives a machine the units that maps of a scene's lights need; what `--set` says stands.
+#[test]
+fn adapt_brings_the_units_of_maps() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let glass = concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs/scenes/glass-and-shadows.toml");
+    let small = ["--set", "screen.width=40", "--set", "screen.height=30", "--set", "shadow.size=32"];
+    for scene in ["sphere", glass] {
+        let words = [&["render", scene, "--shadows", "map", "--adapt", "--json"], &small[..]].concat();
+        let (code, error) = ended(&edgewalk(folder.path(), &words));
+        assert_eq!(code, Some(0), "{scene}: {error}");
+        let (code, error) =
+            ended(&edgewalk(folder.path(), &[&words[..], &["--set", "blend.kind=none"]].concat()));
+        assert!(code == Some(2) && error.contains("BLEND"), "{scene}: {error}");
+    }
 }
 
 /// A light amid the mesh takes six maps, and what is transparent no passes.

@@ -58,7 +58,11 @@ fn add(picture: &mut Picture, path: &Path, [z_bits, color_bits]: [u32; 2], range
     ensure!(!twice, "{}: given twice; permitted: each array once, and one picture", shown());
     let size = (picture.width, picture.height);
     if is_png {
-        picture.rgb = Some(png(path, size).with_context(shown)?);
+        let (colors, bits) = png(path, size).with_context(shown)?;
+        if bits != color_bits {
+            picture.color_step = 1.0 / f64::from((1u32 << bits) - 1);
+        }
+        picture.rgb = Some(colors);
         return Ok(());
     }
     let colors = name == "rgb.npy";
@@ -198,8 +202,8 @@ fn unorm(array: Array, (bits, range): (u32, Floats), columns: u32, each: usize) 
     );
 }
 
-/// The colours of a picture; what says how much of it is seen is left out.
-fn png(path: &Path, (width, height): (u32, u32)) -> Result<Vec<[f64; 3]>> {
+/// The colours of a picture and the bits of each; what says how much of it is seen is left out.
+fn png(path: &Path, (width, height): (u32, u32)) -> Result<(Vec<[f64; 3]>, u32)> {
     let mut decoder = png::Decoder::new(BufReader::new(opened(path)?));
     decoder.set_transformations(png::Transformations::EXPAND);
     let mut reader = decoder.read_info()?;
@@ -214,15 +218,15 @@ fn png(path: &Path, (width, height): (u32, u32)) -> Result<Vec<[f64; 3]>> {
     let mut bytes = vec![0; reader.output_buffer_size()];
     let info = reader.next_frame(&mut bytes)?;
     bytes.truncate(info.buffer_size());
-    let values: Vec<f64> = match info.bit_depth {
-        png::BitDepth::Eight => bytes.iter().map(|byte| f64::from(*byte) / 255.0).collect(),
+    let (values, bits): (Vec<f64>, u32) = match info.bit_depth {
+        png::BitDepth::Eight => (bytes.iter().map(|byte| f64::from(*byte) / 255.0).collect(), 8),
         png::BitDepth::Sixteen => {
             let words = bytes.chunks_exact(2).map(|word| u16::from_be_bytes([word[0], word[1]]));
-            words.map(|word| f64::from(word) / 65535.0).collect()
+            (words.map(|word| f64::from(word) / 65535.0).collect(), 16)
         }
         other => bail!("{other:?} bits a channel; permitted: 8 or 16"),
     };
     let samples = info.color_type.samples();
     let color = |pixel: &[f64]| if samples < 3 { [pixel[0]; 3] } else { [pixel[0], pixel[1], pixel[2]] };
-    Ok(values.chunks_exact(samples).map(color).collect())
+    Ok((values.chunks_exact(samples).map(color).collect(), bits))
 }

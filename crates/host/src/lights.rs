@@ -11,6 +11,7 @@
 //! A surface that transmits light is mixed over what lies behind it, over each light's part by itself: a sum that is mixed is the sum of what is
 //! mixed. In one colour memory it would weaken the parts before it once more with every pass; so each frame then has its own, and the host adds them.
 
+use crate::needs::{maps, met};
 use crate::port::{PortFrame, to_port};
 use crate::raster::{Cycles, Raster};
 use anyhow::{Context as _, Result, anyhow};
@@ -32,24 +33,10 @@ const BIAS_OF_BOX: f64 = 1e-4;
 /// # Errors
 /// Units or a light that the machine has not, surfaces that are seen through.
 pub fn frames(scene: &Scene, surface: &Surface, machine: &Plan) -> Result<Vec<Frame>> {
-    if !machine.shadow.projects() {
-        return Err(anyhow!(
-            "--shadows map: a camera looks in perspective, and the machine has no PROJECT; add --set shadow.light=perspective, or draw with --engine golden"
-        ));
-    }
-    if !machine.blend.is_there() {
-        return Err(anyhow!(
-            "--shadows map: the part of each light is added, and the machine has no BLEND; add --set blend.kind=constant, or draw with --engine golden"
-        ));
-    }
     let mut plain = edgewalk_golden::frame(scene, surface, Shading::Gouraud);
+    met(&maps(&plain, machine)).context("--shadows map")?;
     let mut drawn: Vec<&SurfaceTriangle> = surface.triangles.iter().collect();
     if plain.blend != Blending::Off {
-        if !machine.shadow.transmits() {
-            return Err(anyhow!(
-                "--shadows map: a surface transmits light, and the machine's map says lit or not; add --set shadow.transmits=yes, or draw with --engine golden"
-            ));
-        }
         let (sorted, order) = edgewalk_golden::sorted(plain, machine.subpixel_bits);
         plain = sorted;
         drawn = order.order.iter().map(|place| &surface.triangles[*place]).collect();

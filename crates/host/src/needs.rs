@@ -47,6 +47,27 @@ pub fn needs(frame: &Frame, machine: &Plan) -> Vec<Need> {
     needs
 }
 
+/// What maps of a scene's lights ask of the machine (`--shadows map`): PROJECT, BLEND for the sum of the parts, and shares of the light
+/// behind surfaces that are seen through.
+#[must_use]
+pub fn maps(frame: &Frame, machine: &Plan) -> Vec<Need> {
+    let mut needs = Vec::new();
+    if !machine.shadow.projects() {
+        let why = "a camera looks in perspective, and the machine has no PROJECT".to_owned();
+        needs.push(need("shadow.light", "perspective", why));
+    }
+    if !machine.blend.is_there() {
+        let why = "the part of each light is added, and the machine has no BLEND".to_owned();
+        needs.push(need("blend.kind", "constant", why));
+    }
+    let is_seen_through = frame.passes().iter().any(|pass| pass.state.blend != Blending::Off);
+    if is_seen_through && !machine.shadow.transmits() {
+        let why = "a surface transmits light, and the machine's map says lit or not".to_owned();
+        needs.push(need("shadow.transmits", "yes", why));
+    }
+    needs
+}
+
 /// The need of a frame that golden draws: it has the channels of the machine, and draws whatever else the machine lacks.
 #[must_use]
 pub fn of_golden(frame: &Frame, machine: &Plan) -> Option<Need> {

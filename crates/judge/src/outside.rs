@@ -64,6 +64,10 @@ pub fn beside_golden(
             picture
         })
     };
+    let tolerance = &match tolerance.is_asked_for {
+        true => *tolerance,
+        false => tolerance.of_file(outside.color_step),
+    };
     if rule.is_plain() {
         let reference = Reference { picture: &golden(frame), pieces: pieces(&golden), may_tie: true };
         return judge(machine, frame, reference, outside, tolerance, fill);
@@ -102,7 +106,8 @@ pub fn beside_machine(
     tolerance: &Tolerance,
 ) -> Result<Judgement> {
     let reference = Reference { picture: drawn, pieces: None, may_tie: false };
-    judge(machine, frame, reference, outside, &tolerance.exact(), golden_fill(machine))
+    let tolerance = tolerance.exact().of_file(outside.color_step);
+    judge(machine, frame, reference, outside, &tolerance, golden_fill(machine))
 }
 
 /// What a picture is judged by.

@@ -137,6 +137,7 @@ pub fn judge(
         z: z.map(|values| unorm("z", values, &shape, (machine.z.bits, range))).transpose()?,
         rgb: rgb.map(colors).transpose()?,
         lit: lit.map(|values| whole("lit", values, &shape, &LIT)).transpose()?,
+        color_step: 0.0,
     };
     if [z, rgb, coverage, id, lit].iter().all(Option::is_none) {
         return Err(Error::new_err("no array; permitted: one or more of z, rgb, coverage, id, lit"));

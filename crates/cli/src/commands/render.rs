@@ -44,7 +44,7 @@ use std::path::PathBuf;
   edgewalk render teapot.obj --engine golden --shading constant-averaged
   edgewalk render sphere --engine golden --shading fast-phong --fit six-point --table 4096
   edgewalk render terrain --engine golden --shading phong --shadows map
-  edgewalk render terrain --shadows map --set shadow.light=perspective --set blend.kind=constant
+  edgewalk render terrain --shadows map --adapt
   edgewalk render torus --engine golden --shading wireframe --hidden-lines
   edgewalk render torus --shading wireframe --set polygon.lines=yes")]
 pub struct Args {
@@ -56,7 +56,7 @@ pub struct Args {
     #[command(flatten)]
     fast_phong: FastPhongArgs,
     /// Method of shadows; engines other than golden take `map` alone. They need shadow.light = perspective and
-    /// BLEND, and draw a pass and a map for each light
+    /// BLEND, which --adapt sets, and draw a pass and a map for each light
     #[arg(long, value_enum, default_value_t = Shadows::Off)]
     shadows: Shadows,
     /// With --shading wireframe: also draw the lines that surfaces hide
@@ -93,7 +93,8 @@ impl Args {
 
 /// Runs the command.
 pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
-    let machine = args.source.machine(machine)?;
+    let maps = args.shadows == Shadows::Map && args.engine != Engine::Golden;
+    let machine = args.source.machine_with_maps(machine, maps)?;
     if args.source.shading() != Shading::FastPhong {
         args.fast_phong.unused()?;
     }

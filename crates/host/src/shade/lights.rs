@@ -61,9 +61,9 @@ impl Lamp {
         let (given, most) = (shading.lights.len(), machine.shade.lights as usize);
         if given > most {
             let remedy = if machine.shade.is_positional() {
-                "take 1; render and explain draw one after the other".to_owned()
+                "permitted: 1; render and explain draw one after the other"
             } else {
-                "take 2".to_owned()
+                "permitted: 1 or 2, as shade.lights says; leave lights out"
             };
             return Err(anyhow!(
                 "{given} lights: the machine has terms for {most}; {remedy}, or draw with --engine golden"

@@ -20,6 +20,8 @@ pub struct Picture {
     pub rgb: Option<Vec<[f64; 3]>>,
     /// 0 nothing written, 1 in shadow, 2 lit.
     pub lit: Option<Vec<u8>>,
+    /// A step of the colours in a file that rounds them to bits of its own, as a PNG does, in 0 to 1; else 0.
+    pub color_step: f64,
 }
 
 /// What the whole numbers of an array may be.

@@ -34,7 +34,16 @@ fn frame() -> Frame {
 
 fn picture(of: Raster) -> Picture {
     let Raster { width, height, coverage, id, z, rgb, lit, .. } = of;
-    Picture { width, height, coverage: Some(coverage), id: Some(id), z: Some(z), rgb: Some(rgb), lit }
+    Picture {
+        width,
+        height,
+        coverage: Some(coverage),
+        id: Some(id),
+        z: Some(z),
+        rgb: Some(rgb),
+        lit,
+        color_step: 0.0,
+    }
 }
 
 /// A pixel under the triangles, and the last one of the screen.

@@ -33,7 +33,7 @@ pub struct Tolerance {
     /// The largest tolerance of a pixel's colour in a blended frame, LSB; none without layers, or with a tolerance of the user.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub layers: Option<f64>,
-    /// What DITHER may add to the bound of a blended pixel, LSB.
+    /// What DITHER and the file of the picture may add to the bound of a blended pixel, LSB.
     #[serde(skip)]
     pub(super) step: f64,
     /// The user gave the tolerance of colours, or another format than the machine's: it holds at each pixel.
@@ -97,6 +97,12 @@ impl Tolerance {
     pub fn exact(self) -> Self {
         let (z_no_bound, color_no_bound) = (None, None);
         Tolerance { z: 0.0, color: 0.0, z_no_bound, color_no_bound, is_asked_for: true, ..self }
+    }
+
+    /// With the rounding of a file whose colours have a step of their own; a tolerance that the user gave holds as it is.
+    pub(super) fn of_file(self, color_step: f64) -> Self {
+        let rounding = color_step / 2.0 / self.color_lsb;
+        Tolerance { color: self.color + rounding, step: self.step + rounding, ..self }
     }
 
     /// Depths so near to one another may come out in any order, in 0 to 1: each errs by the tolerance, and both are rounded.

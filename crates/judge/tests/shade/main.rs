@@ -320,7 +320,7 @@ fn what_the_machine_cannot_take_is_named_with_a_remedy() {
         (
             with(&|_, s| s.lights = vec![s.lights[0]; 3]),
             fast(&[("shade.lights", "2")]),
-            &["3 lights", "take 2"],
+            &["3 lights", "permitted: 1 or 2"],
         ),
         (with(&|_, s| s.lights = vec![lamp(weak)]), fast(&[]), &["light 1", "does not weaken"]),
         (frame.clone(), plan(&[("shade.kind", "phong")]), &["mode fast-phong", "shade.kind is phong"]),
