@@ -225,7 +225,11 @@ class Live:
     def ports(self) -> Dict[str, List[Tuple[str, int, bool]]]:
         """For each link its ports: name, bits, whether it is two's complement."""
     def give(self, token: Mapping[str, int]) -> None:
-        """Gives the unit a token: a value for each port of `takes`, as its bits or with its sign."""
+        """Gives the unit a token: a value for each port of `takes`, as its bits or with its sign.
+
+        A token that breaks the unit's rules, as a span of no columns, may keep the unit busy for ever: Ctrl-C ends `next`
+        and `rest`.
+        """
     def next(self, link: str) -> Optional[Dict[str, int]]:
         """The next token of a link of `gives`, with its sign; None if what was given so far makes no more."""
     def rest(self) -> Dict[str, int]:

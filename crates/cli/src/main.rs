@@ -43,6 +43,7 @@ use commands::{
     bench, calibrate, compare, completions, config, demo, emit, energy, estimate, explain, gallery, judge,
     man, mutants, raster, render, replay, size, sweep, synth, trace, vectors, verify,
 };
+use edgewalk_host::needs::without_engine;
 use machine_args::MachineArgs;
 use std::io::Write as _;
 use std::process::ExitCode;
@@ -112,8 +113,10 @@ fn keep_freed_memory() {
 
 fn main() -> ExitCode {
     keep_freed_memory();
+    let mut has_engine = true;
     let (talk, result) = match parsed() {
         Ok(cli) => {
+            has_engine = matches!(cli.command, Command::Render(_) | Command::Raster(_));
             let talk = Talk { json: cli.json, quiet: cli.quiet };
             if talk.quiet {
                 progress::be_quiet();
@@ -125,7 +128,7 @@ fn main() -> ExitCode {
             (talk, page_or_error(&page, talk))
         }
     };
-    ExitCode::from(exit_code(result, talk))
+    ExitCode::from(exit_code(result, has_engine, talk))
 }
 
 /// The command line. Behind an option or as a value of its own `-1` is a number, which the range of the value refuses.
@@ -188,11 +191,14 @@ fn run(cli: &Cli, talk: Talk) -> Result<Verdict> {
     }
 }
 
-/// The exit code; where it is not 0, standard error says why, however quiet the command is.
-fn exit_code(result: Result<Verdict>, talk: Talk) -> u8 {
+/// The exit code; where it is not 0, standard error says why, however quiet the command is. A command without --engine advises none.
+fn exit_code(result: Result<Verdict>, has_engine: bool, talk: Talk) -> u8 {
     let code = result.as_ref().map_or_else(verdict::of_error, |verdict| verdict::exit_code(*verdict));
     match &result {
-        Err(error) => talk.fail(&format!("{error:#}"), code),
+        Err(error) => {
+            let text = format!("{error:#}");
+            talk.fail(&if has_engine { text } else { without_engine(&text) }, code);
+        }
         Ok(Verdict::Vacuous) => talk.fail("nothing was compared, so nothing is shown to agree", code),
         Ok(Verdict::Open) => talk.fail(
             "no pixel was compared: at each covered pixel two depths are nearer than their bound; permitted: depths farther \

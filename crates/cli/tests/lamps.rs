@@ -323,7 +323,7 @@ fn faults_end_with_a_remedy() {
         (BULB, &render, &["light 1", "shade.light=positional", "--engine golden"]),
         (SUN, &lamp, &["a directional light", "shade.light=directional"]),
         (&sunny, &lamp, &["light 2 is a directional light", "light 1 stands at a point", "--engine golden"]),
-        (&both, &verify, &["2 lights", "take 1", "render", "--engine golden"]),
+        (&both, &verify, &["2 lights", "permitted: 1", "render and explain draw one after the other"]),
         (&bright, &lamp, &["highlight of", "shade.light = positional", "at most 1", "weaker light"]),
         (&soft, &lamp, &["exponent 0.5", "take 1"]),
         (BULB, &two, &["shade.lights", "one light at a time", "1"]),

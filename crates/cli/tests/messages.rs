@@ -216,3 +216,33 @@ fn no_control_character_reaches_the_terminal() {
         "{text:?}"
     );
 }
+
+/// Only `render` and `raster` have --engine: no other command advises it.
+#[test]
+fn commands_without_engine_advise_none() {
+    let folder = tempfile::tempdir().unwrap();
+    let phong = FILES.iter().find(|(name, _)| *name == "far.tri").unwrap().1.replace("9000", "7");
+    std::fs::write(folder.path().join("p.tri"), phong).unwrap();
+    let glass = concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs/scenes/glass-and-shadows.toml");
+    let (advice, mut advised) = ("--engine", 0);
+    for words in [
+        &["raster", "p.tri", "--out", "o"][..],
+        &["render", "p.tri", "--out", "o"],
+        &["vectors", "p.tri", "--out", "o"],
+        &["verify", "p.tri"],
+        &["trace", "p.tri", "--out", "o"],
+        &["explain", "p.tri", "2", "2"],
+        &["replay", "p.tri", "--out", "o.html"],
+        &["energy", "p.tri"],
+        &["judge", "p.tri", "o", "--against", "machine"],
+        &["vectors", glass, "--out", "o"],
+        &["trace", "sphere", "--shading", "phong", "--out", "o"],
+    ] {
+        let (code, error) = run(folder.path(), words);
+        assert_eq!(code, Some(2), "{words:?}: {error}");
+        let has_engine = words[0].starts_with('r') && words[0] != "replay";
+        assert_eq!(error.contains(advice), has_engine, "{words:?}: {error}");
+        advised += usize::from(has_engine);
+    }
+    assert_eq!(advised, 2);
+}

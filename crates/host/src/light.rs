@@ -30,7 +30,7 @@ pub fn check(shadow: &Shadow, machine: &Plan) -> Result<()> {
     let side = KEYS.iter().find(|key| key.name == "shadow.size" && key.parse(&given.to_string()).is_none());
     if let Some(key) = side {
         return Err(anyhow!(
-            "shadow {given}: a machine's map has {} texels a side; draw with --engine golden",
+            "shadow {given}: a machine's map has {} texels a side; give the shadow such a size, or draw with --engine golden",
             key.permitted()
         ));
     }

@@ -133,7 +133,13 @@ impl fmt::Display for NotMet {
 /// The reason why a machine of many does not draw an input: commands that run many have --set, but neither --adapt nor --engine.
 #[must_use]
 pub fn reason(error: &anyhow::Error) -> String {
-    error.downcast_ref().map_or_else(|| format!("{error:#}"), NotMet::met_by_settings)
+    error.downcast_ref().map_or_else(|| without_engine(&format!("{error:#}")), NotMet::met_by_settings)
+}
+
+/// A message without the advice to draw with golden, for commands that have no --engine.
+#[must_use]
+pub fn without_engine(message: &str) -> String {
+    message.replace(", or draw with --engine golden", "")
 }
 
 /// BLEND, and one k_t for a triangle or more; a machine with a screen door mixes by that.

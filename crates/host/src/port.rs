@@ -157,7 +157,7 @@ pub fn to_port(frame: &Frame, machine: &Plan) -> Result<PortFrame> {
         light::check(shadow, machine)?;
         if frame.shading.is_some() {
             return Err(anyhow!(
-                "shadow: a frame that is shaded at each pixel has no light's map in the machine; draw with mode gouraud, or with --engine golden"
+                "shadow: a frame that is shaded at each pixel has no light's map in the machine; permitted: mode gouraud or flat; change the mode, or draw with --engine golden"
             ));
         }
     }

@@ -126,7 +126,7 @@ pub fn judge(
     let rule = self::rule(rule, machine.fill)?;
     let range = if rule == Rule::Textbook { Floats::Finite } else { Floats::InUnit };
     let colors = |rgb| -> PyResult<Vec<[f64; 3]>> {
-        let values = unorm("rgb", rgb, &[height, width, 3], (machine.color.bits, range))?;
+        let values = unorm("rgb", rgb, &[height, width, 3], (machine.stored_color().bits, range))?;
         Ok(values.chunks_exact(3).map(|c| [c[0], c[1], c[2]]).collect())
     };
     let picture = outside::Picture {

@@ -1,14 +1,14 @@
 //! `Live` in Python: a unit of the model beside somebody's simulation.
 
 use crate::error::Error;
-use crate::machine::{Machine, on_screen};
+use crate::machine::{Machine, dict, on_screen};
 use crate::token::{bits, dictionary, read};
 use crate::vectors::unit;
 use edgewalk_lockstep::{Direction, Interface};
 use edgewalk_machine::Unknown;
 use edgewalk_vectors::live::{self, StartWords};
 use pyo3::prelude::*;
-use pyo3::types::{PyDict, PyList};
+use pyo3::types::{PyDict, PyList, PyMapping};
 use std::collections::BTreeMap;
 use std::sync::{Mutex, PoisonError};
 
@@ -27,17 +27,21 @@ impl Live {
     fn new(
         unit: &str,
         machine: Option<&Machine>,
-        constants: Option<&Bound<'_, PyDict>>,
-        memories: Option<&Bound<'_, PyDict>>,
-        clear: Option<&Bound<'_, PyDict>>,
+        constants: Option<&Bound<'_, PyMapping>>,
+        memories: Option<&Bound<'_, PyMapping>>,
+        clear: Option<&Bound<'_, PyMapping>>,
     ) -> PyResult<Self> {
         let machine = on_screen(machine, None)?;
         let unit = self::unit(&machine, unit)?;
         let interface = Interface::new(&machine, unit);
-        let constants = self::constants(&interface, constants)?;
+        let constants = self::constants(&interface, constants.map(dict).transpose()?.as_ref())?;
         let constants: Vec<(&str, u128)> =
             constants.iter().map(|(name, value)| (name.as_str(), *value)).collect();
-        let memories = start(&interface, memories, clear)?;
+        let memories = start(
+            &interface,
+            memories.map(dict).transpose()?.as_ref(),
+            clear.map(dict).transpose()?.as_ref(),
+        )?;
         let made = live::Live::new(&machine, unit, &constants, &memories);
         let unit = made.map_err(|error| Error::new_err(error.to_string()))?;
         Ok(Live { interface, unit: Mutex::new(unit) })
@@ -67,8 +71,8 @@ impl Live {
     }
 
     /// Gives the unit a token, as it stood at its ports.
-    fn give(&mut self, token: &Bound<'_, PyDict>) -> PyResult<()> {
-        let token = read(&self.interface.links[0], token)?;
+    fn give(&mut self, token: &Bound<'_, PyMapping>) -> PyResult<()> {
+        let token = read(&self.interface.links[0], &dict(token)?)?;
         self.unit().give(&token);
         Ok(())
     }
@@ -79,14 +83,14 @@ impl Live {
         let place = links.iter().position(|known| known.name == link && known.direction == Direction::Out);
         let place =
             place.ok_or_else(|| Error::new_err(Unknown::new("link", link, self.gives()).to_string()))?;
-        let Some(token) = self.unit().next(place) else { return Ok(None) };
+        let Some(token) = self.unit().next(place, || py.check_signals())? else { return Ok(None) };
         dictionary(py, &self.interface.links[place], &token).map(Some)
     }
 
     /// For each link out: the number of tokens left over.
     fn rest<'py>(&mut self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let dict = PyDict::new(py);
-        for (link, count) in self.unit().rest() {
+        for (link, count) in self.unit().rest(|| py.check_signals())? {
             dict.set_item(link, count)?;
         }
         Ok(dict)

@@ -5,7 +5,7 @@ use anyhow::Result;
 use edgewalk_machine::presets::PRESETS;
 use edgewalk_machine::{Plan, Unknown};
 use pyo3::prelude::*;
-use pyo3::types::{PyBool, PyDict};
+use pyo3::types::{PyBool, PyDict, PyMapping};
 
 /// A checked machine: a preset or a machine file, with keys of its own. It never changes.
 #[pyclass(module = "edgewalk", frozen)]
@@ -21,7 +21,7 @@ pub fn presets() -> Vec<(&'static str, &'static str)> {
 impl Machine {
     #[new]
     #[pyo3(signature = (preset = "default", keys = None))]
-    fn new(preset: &str, keys: Option<&Bound<'_, PyDict>>) -> PyResult<Self> {
+    fn new(preset: &str, keys: Option<&Bound<'_, PyMapping>>) -> PyResult<Self> {
         let machine = edgewalk_machine::Machine::preset(preset).ok_or_else(|| {
             Error::new_err(Unknown::new("preset", preset, PRESETS.iter().map(|p| p.0)).to_string())
         })?;
@@ -31,14 +31,14 @@ impl Machine {
     /// The machine of a machine file's text.
     #[staticmethod]
     #[pyo3(signature = (text, keys = None))]
-    fn from_toml(text: &str, keys: Option<&Bound<'_, PyDict>>) -> PyResult<Self> {
+    fn from_toml(text: &str, keys: Option<&Bound<'_, PyMapping>>) -> PyResult<Self> {
         let machine =
             edgewalk_machine::Machine::from_toml(text).map_err(|e| Error::new_err(e.to_string()))?;
         with_keys(machine, keys)
     }
 
     /// Another machine, with these keys changed.
-    fn with_keys(&self, keys: &Bound<'_, PyDict>) -> PyResult<Self> {
+    fn with_keys(&self, keys: &Bound<'_, PyMapping>) -> PyResult<Self> {
         with_keys(edgewalk_machine::Machine::clone(&self.0), Some(keys))
     }
 
@@ -82,15 +82,28 @@ impl Machine {
     }
 }
 
-fn with_keys(mut machine: edgewalk_machine::Machine, keys: Option<&Bound<'_, PyDict>>) -> PyResult<Machine> {
-    for (key, value) in keys.into_iter().flatten() {
-        let (key, mut text) = (key.str()?.to_string(), value.str()?.to_string());
-        if value.is_instance_of::<PyBool>() {
-            text.make_ascii_lowercase();
-        }
+fn with_keys(
+    mut machine: edgewalk_machine::Machine,
+    keys: Option<&Bound<'_, PyMapping>>,
+) -> PyResult<Machine> {
+    for (key, value) in keys.map(dict).transpose()?.into_iter().flatten() {
+        let (key, text) = (key.str()?.to_string(), word(&value)?);
         machine.set(&key, &text).map_err(|e| Error::new_err(format!("{key} = {text}: {e}")))?;
     }
     Ok(Machine(machine.plan().map_err(|e| Error::new_err(e.to_string()))?))
+}
+
+/// A value of a key as in a machine file; a bool is yes or no.
+pub fn word(value: &Bound<'_, PyAny>) -> PyResult<String> {
+    match value.is_instance_of::<PyBool>() {
+        true => Ok(if value.is_truthy()? { "yes" } else { "no" }.to_owned()),
+        false => Ok(value.str()?.to_string()),
+    }
+}
+
+/// A mapping as a dict.
+pub fn dict<'py>(mapping: &Bound<'py, PyMapping>) -> PyResult<Bound<'py, PyDict>> {
+    PyDict::from_sequence(mapping.items()?.as_any())
 }
 
 /// The machine asked for or the default one, with a screen of this size where a file has one.

@@ -1,7 +1,7 @@
 //! What is to be drawn: an array of triangles, or a triangle file.
 
 use crate::array::floats;
-use crate::error::raised;
+use crate::error::{Error, raised};
 use crate::machine::{Machine, on_screen};
 use edgewalk_host::input::fitting;
 use edgewalk_machine::Plan;
@@ -45,6 +45,12 @@ pub fn frame(
     header: &str,
 ) -> PyResult<(Plan, Frame)> {
     let (name, plan, frame) = if let Ok(path) = triangles.extract::<PathBuf>() {
+        if !header.is_empty() {
+            return Err(Error::new_err(format!(
+                "header: given with the file {}; permitted: with an array of triangles; write the lines into the file",
+                path.display()
+            )));
+        }
         let frame = read(&path).map_err(|error| raised(&error.into()))?;
         (path.display().to_string(), on_screen(machine, Some((frame.width, frame.height)))?, frame)
     } else {

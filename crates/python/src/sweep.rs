@@ -1,7 +1,7 @@
 //! `Sweep` and `sweep` in Python.
 
 use crate::error::{Error, run};
-use crate::machine::{Machine, on_screen};
+use crate::machine::{Machine, dict, on_screen, word};
 use crate::number::whole;
 use crate::token::structured;
 use anyhow::{Result, anyhow};
@@ -11,7 +11,7 @@ use edgewalk_explore::sweep::evaluate::{Around, missing, run as evaluate};
 use edgewalk_explore::sweep::table::Table;
 use edgewalk_explore::sweep::{self as explored, Definition, Judge, Sample, Store, store};
 use pyo3::prelude::*;
-use pyo3::types::{PyBool, PyDict, PyList, PyString};
+use pyo3::types::{PyDict, PyList, PyMapping, PyString};
 use serde_json::Value;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -116,7 +116,7 @@ fn column<'py>(py: Python<'py>, values: &[Value]) -> PyResult<Bound<'py, PyAny>>
 pub fn sweep(
     py: Python<'_>,
     inputs: &Bound<'_, PyAny>,
-    vary: &Bound<'_, PyDict>,
+    vary: &Bound<'_, PyMapping>,
     machine: Option<&Machine>,
     shading: Option<String>,
     stalls: Vec<String>,
@@ -136,7 +136,7 @@ pub fn sweep(
         inputs: names(inputs)?,
         shading,
         machine: on_screen(machine, None)?.every_key_to_toml(),
-        vary: vary.iter().map(|(key, values)| varied(&key, &values)).collect::<PyResult<_>>()?,
+        vary: dict(vary)?.iter().map(|(key, values)| varied(&key, &values)).collect::<PyResult<_>>()?,
         stalls,
         judge: judge.to_owned(),
         judge_inputs: judge_inputs.to_owned(),
@@ -174,10 +174,6 @@ fn names(inputs: &Bound<'_, PyAny>) -> PyResult<Vec<String>> {
 
 /// A key and its values as the program takes them: `key=a,b,c`, or `key=lo..hi` where the values are a text.
 fn varied(key: &Bound<'_, PyAny>, values: &Bound<'_, PyAny>) -> PyResult<String> {
-    let word = |value: &Bound<'_, PyAny>| -> PyResult<String> {
-        let text = value.str()?.to_string();
-        Ok(if value.is_instance_of::<PyBool>() { text.to_ascii_lowercase() } else { text })
-    };
     let values = if values.is_instance_of::<PyString>() {
         word(values)?
     } else {

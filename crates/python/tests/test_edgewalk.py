@@ -5,6 +5,7 @@ import os
 import re
 import subprocess
 from pathlib import Path
+from types import MappingProxyType
 
 import numpy as np
 import pytest
@@ -199,3 +200,31 @@ def test_the_example_of_the_page_runs(tmp_path, monkeypatch, capsys, page):
     printed = capsys.readouterr().out.split("\n")
     said = re.findall(r"# prints (.*)", example)
     assert said and all(line in printed for line in said), printed
+
+
+def test_judge_reads_colours_as_the_machine_stores_them():
+    machine = edgewalk.Machine("small", {**SCREEN, "formats.color_bits": 8, "dither.bits": 5})
+    drawn = edgewalk.raster(triangles(), machine)
+    assert machine.color_bits == 5 and drawn.rgb_lsb.max() == 31
+    for rgb in [drawn.rgb, drawn.rgb_lsb]:
+        for against in ["machine", "golden"]:
+            judged = edgewalk.judge(triangles(), machine, rgb=rgb, against=against)
+            assert judged.wrong == 0, (against, str(judged))
+
+
+def test_header_beside_a_file_is_refused(tmp_path):
+    path, machine = file_of(tmp_path, triangles()), edgewalk.Machine("small")
+    for call in [lambda **of: edgewalk.raster(path, machine, **of), lambda **of: edgewalk.vectors(machine, triangles=path, **of)]:
+        call()
+        with pytest.raises(edgewalk.Error, match="header: given with the file .*own.tri; permitted: with an array"):
+            call(header="depth off")
+
+
+def test_any_mapping_is_taken_and_bools_are_yes_or_no():
+    words = {"polygon.edges": 8, "polygon.lines": "yes"}
+    machine = edgewalk.Machine("default", words)
+    assert machine.hash == edgewalk.Machine("default", MappingProxyType({**words, "polygon.lines": True})).hash
+    assert machine.hash == edgewalk.Machine("default").with_keys(MappingProxyType(words)).hash
+    assert machine.hash != edgewalk.Machine("default", {**words, "polygon.lines": False}).hash
+    swept = edgewalk.sweep("sphere", MappingProxyType({"polygon.lines": [True, False]}), edgewalk.Machine("polygon", SCREEN))
+    assert len(swept.rows) == 2

@@ -1,6 +1,7 @@
 """`vectors` and `Live` beside the program. Run by tests/python."""
 
 import re
+import signal
 import threading
 
 import numpy as np
@@ -202,3 +203,14 @@ def test_bad_input_raises_the_modules_error(case):
     with pytest.raises(edgewalk.Error) as raised:
         call()
     assert re.search(said, str(raised.value)), raised.value
+
+
+def test_unit_that_runs_on_ends_with_ctrl_c():
+    live = edgewalk.Live("pixel", edgewalk.Machine("small"))
+    none = {port[0]: 0 for port in live.ports["span"]}
+    for _ in range(2):
+        live.give(none)
+    signal.signal(signal.SIGALRM, lambda *_: (_ for _ in ()).throw(KeyboardInterrupt))
+    signal.setitimer(signal.ITIMER_REAL, 0.3)
+    with pytest.raises(KeyboardInterrupt):
+        live.rest()

@@ -25,7 +25,7 @@ module bench_source #(
     assign valid = !rst && more && (held || willing);
     assign data  = valid ? tokens[sent] : {WIDTH{1'b0}};
     assign fire  = valid && ready;
-    assign more  = sent < COUNT;
+    assign more  = sent != COUNT;
 
     always @(posedge clk)
         if (rst) begin

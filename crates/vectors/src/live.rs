@@ -116,22 +116,40 @@ impl Live {
         self.quiet = 0;
     }
 
-    /// The next token that leaves on the link of this place; none if what was given so far makes no more.
-    pub fn next(&mut self, link: usize) -> Option<Token> {
+    /// The next token that leaves on the link of this place; none if what was given so far makes no more. `go_on` is asked now and
+    /// then: a token that breaks the unit's rules may keep it busy for ever.
+    ///
+    /// # Errors
+    /// Those of `go_on`.
+    pub fn next<E>(
+        &mut self,
+        link: usize,
+        mut go_on: impl FnMut() -> Result<(), E>,
+    ) -> Result<Option<Token>, E> {
+        let mut cycles = 0;
         while self.came[link].is_empty() && self.quiet < self.patience {
             self.cycle();
+            asked(&mut cycles, &mut go_on)?;
         }
-        self.came[link].pop_front()
+        Ok(self.came[link].pop_front())
     }
 
-    /// For each link out: the number of tokens left over.
-    pub fn rest(&mut self) -> Vec<(&'static str, usize)> {
+    /// For each link out: the number of tokens left over. `go_on` as of [`Live::next`].
+    ///
+    /// # Errors
+    /// Those of `go_on`.
+    pub fn rest<E>(
+        &mut self,
+        mut go_on: impl FnMut() -> Result<(), E>,
+    ) -> Result<Vec<(&'static str, usize)>, E> {
+        let mut cycles = 0;
         while self.quiet < self.patience {
             self.cycle();
+            asked(&mut cycles, &mut go_on)?;
         }
         let links = self.interface.links.iter().zip(&self.came);
         let out = links.filter(|(link, _)| link.direction == Direction::Out);
-        out.map(|(link, came)| (link.name, came.len())).collect()
+        Ok(out.map(|(link, came)| (link.name, came.len())).collect())
     }
 
     fn cycle(&mut self) {
@@ -146,4 +164,13 @@ impl Live {
         let changed = std::mem::replace(&mut self.status, status) != self.status;
         self.quiet = if self.rig.clock(&self.ports) || changed { 0 } else { self.quiet + 1 };
     }
+}
+
+/// Cycles between two questions.
+const BETWEEN: u32 = 4096;
+
+/// Counts a cycle, and asks whether to go on.
+fn asked<E>(cycles: &mut u32, go_on: &mut impl FnMut() -> Result<(), E>) -> Result<(), E> {
+    *cycles += 1;
+    if cycles.is_multiple_of(BETWEEN) { go_on() } else { Ok(()) }
 }

@@ -57,7 +57,7 @@ pub struct Args {
     /// Bits of a depth of the picture [default: formats.z_bits]
     #[arg(long, value_name = "BITS", value_parser = whole::<u32>(1..=48))]
     depth_bits: Option<u32>,
-    /// Bits of a colour of the picture [default: formats.color_bits]
+    /// Bits of a colour of the picture [default: formats.color_bits, with DITHER dither.bits]
     #[arg(long, value_name = "BITS", value_parser = whole::<u32>(1..=48))]
     color_bits: Option<u32>,
     /// Largest permitted error of a depth, LSB [default: the proved bound of the machine; 1 where none is proved, or if
@@ -134,7 +134,8 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
     let machine = source.machine(machine)?;
     let frame = source.whole(&machine)?;
     let size = (machine.width, machine.height);
-    let bits = [args.depth_bits.unwrap_or(machine.z.bits), args.color_bits.unwrap_or(machine.color.bits)];
+    let bits =
+        [args.depth_bits.unwrap_or(machine.z.bits), args.color_bits.unwrap_or(machine.stored_color().bits)];
     let rule = rule(args, &machine)?;
     let range = if rule == Rule::Textbook { Floats::Finite } else { Floats::InUnit };
     let picture = foreign::read(&args.pictures, size, bits, range)?;

@@ -53,8 +53,8 @@ impl Lamp {
         let far_away = machine.shade.normalises() && !machine.shade.is_positional();
         if let Some(place) = shading.lights.iter().position(|light| far_away && !is_far(light)) {
             return Err(anyhow!(
-                "light {}: with shade.kind = phong N·L is linear, so every light is directional; add --set shade.light=positional, or \
-                 draw with --engine golden",
+                "light {}: with shade.kind = phong N·L is linear, so every light is directional; add --set shade.light=positional\
+                 , or draw with --engine golden",
                 place + 1
             ));
         }
