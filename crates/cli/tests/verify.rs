@@ -126,6 +126,15 @@ fn nothing_to_draw_is_nothing_checked() {
     let (code, text) = told(&verify(TRIANGLE, &["--no-simulators", "--only", "zero_area_horizontal"], None));
     let why = "suite corners: 0 tokens of machine, setup, edge, span, pixel, depth were compared: the cases of --only";
     assert!(code == Some(2) && text.contains(why), "{text}");
+    // On a screen of one line some suites cover no pixel, and --only was not given.
+    let line = "size 24 1\nT 0 0 0 1 0 0 0  20 0 0 0 1 0 0  0 3 1 0 0 1 0\n";
+    let (code, text) = told(&verify_file(line, &["--no-simulators", "--set", "screen.height=1"], None));
+    let why = "its triangles cover no pixel of the 24x1 screen; permitted: at least 1; set a larger screen";
+    assert!(code == Some(2) && text.contains(why) && !text.contains("the cases of --only"), "{text}");
+    // Verilator itself takes a suite without a token.
+    let (code, text) =
+        told(&verify("", &["--simulator", "verilator", "--only", "zero_area_horizontal"], None));
+    assert!(code == Some(2) && text.contains("0 tokens of machine"), "{text}");
 }
 
 #[test]

@@ -42,7 +42,13 @@ fn reasons(args: &Args, machine: &Plan, taken: usize, checks: &[Check]) -> Vec<S
                 ),
                 "verify an input with a triangle in view, or take more of its triangles (--triangles)",
             ),
-            _ => ("the cases of --only give none".to_owned(), "name other cases, or leave --only out"),
+            _ if !args.only.is_empty() => {
+                ("the cases of --only give none".to_owned(), "name other cases, or leave --only out")
+            }
+            _ => (
+                format!("its triangles cover no pixel of the {width}x{height} screen"),
+                "set a larger screen, or name cases that cover a pixel (--only)",
+            ),
         };
         format!(
             "suite {suite}: 0 tokens of {} were compared: {why}; permitted: at least 1; {way}",
