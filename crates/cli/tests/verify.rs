@@ -131,10 +131,18 @@ fn nothing_to_draw_is_nothing_checked() {
     let (code, text) = told(&verify_file(line, &["--no-simulators", "--set", "screen.height=1"], None));
     let why = "its triangles cover no pixel of the 24x1 screen; permitted: at least 1; set a larger screen";
     assert!(code == Some(2) && text.contains(why) && !text.contains("the cases of --only"), "{text}");
-    // Verilator itself takes a suite without a token.
-    let (code, text) =
-        told(&verify("", &["--simulator", "verilator", "--only", "zero_area_horizontal"], None));
-    assert!(code == Some(2) && text.contains("0 tokens of machine"), "{text}");
+}
+
+/// Verilator takes the bench of a suite without a token, so that `verify` comes to say so.
+#[test]
+fn bench_of_no_tokens_has_no_warning() {
+    for (count, file) in [("0", "bench_source"), ("0", "bench_sink"), ("3", "bench_source")] {
+        let path = format!("{}/../vectors/bench/{file}.v", env!("CARGO_MANIFEST_DIR"));
+        let mut command = Command::new("verilator");
+        command.args(["--lint-only", "-Wall", &format!("-GCOUNT={count}"), "--top-module", file, &path]);
+        let (code, text) = told(&command.output().expect("verilator runs"));
+        assert_eq!((code, text.as_str()), (Some(0), ""), "{file}");
+    }
 }
 
 #[test]
