@@ -26,6 +26,8 @@ mod guard_band;
 mod input_files;
 mod inputs;
 mod judge;
+mod judge_formats;
+mod judge_layers;
 mod judge_reference;
 mod layering;
 mod lens;

@@ -2,6 +2,7 @@
 #![allow(clippy::unwrap_used, dead_code)] // a test that unwraps nothing reports it; no test uses all of it
 
 pub mod browser;
+pub mod judging;
 pub mod recording;
 
 use std::path::{Path, PathBuf};
