@@ -364,12 +364,13 @@ fn arrays_that_cannot_be_are_refused() {
     let pixels = 64 * 48;
     for folder in [
         "short", "turned", "shape", "type", "cut", "header", "many", "empty", "int", "nonsense", "huge",
-        "hex",
+        "hex", "deep",
     ] {
         std::fs::create_dir(at(folder)).unwrap();
     }
     npy(&at("shape/z.npy"), "<f8", "(48, 65)", &values(48 * 65));
     npy(&at("huge/z.npy"), "<f8", "(4294967296, 4294967296, 0)", &[]);
+    npy(&at("deep/z.npy"), "<f8", &("[".repeat(9000) + &"]".repeat(9000)), &[]);
     npy(&at("hex/z.npy"), "<f8", "(0x100000000, 0x100000000)", &[]);
     npy(&at("turned/rgb.npy"), "<f8", "(3, 48, 64)", &values(3 * pixels));
     npy(&at("type/z.npy"), "<c16", "(48, 64)", &values(2 * pixels));
@@ -389,7 +390,7 @@ fn arrays_that_cannot_be_are_refused() {
     std::fs::write(at("not.png"), b"nothing").unwrap();
     image::RgbImage::new(64, 47).save(at("small.png")).unwrap();
     image::RgbImage::new(64, 48).save(at("mine.png")).unwrap();
-    let cases: [(&[&str], &str); 23] = [
+    let cases: [(&[&str], &str); 24] = [
         (&["huge"], "more values than 64 bits count; permitted: 64 columns, 48 lines"),
         (&["hex"], "a length that is no decimal number"),
         (&["shape"], "its shape is [48, 65]; permitted: [48, 64], lines from the top, columns"),
@@ -403,7 +404,12 @@ fn arrays_that_cannot_be_are_refused() {
         ),
         (&["short"], "shorter than a header"),
         (&["header"], "permitted: 65536"),
-        (&["nonsense"], "z.npy"),
+        (&["deep"], "its header has brackets 9001 deep; permitted: 4"),
+        (
+            &["nonsense"],
+            "z.npy: its header is none of numpy's (could not parse Python expression: syntax error:  --> 1:11); permitted: a \
+             dictionary of descr",
+        ),
         (&["empty"], "no array is there; permitted: one or more of coverage.npy"),
         (&["depth.npy"], "the name says nothing of what the file holds"),
         (&["none"], "the name says nothing of what the file holds"),

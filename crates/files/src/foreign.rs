@@ -14,6 +14,8 @@ const NAMES: [&str; 5] = ["coverage.npy", "id.npy", "z.npy", "rgb.npy", "lit.npy
 
 /// Longest header of an array that is read, bytes.
 const MAX_HEADER: u64 = 1 << 16;
+/// Most brackets that may be open at once in such a header: a dictionary, a list of fields, a field, its shape.
+const MAX_BRACKETS: usize = 4;
 
 /// Reads what these paths name: pictures of this size, whose depths and colours have so many bits where they are integers. Where
 /// they are floats, `range` says what these may be.
@@ -96,6 +98,20 @@ fn are_countable(header: &str) -> bool {
     product.is_some()
 }
 
+/// The most brackets that are open at once. Crate `npyz` takes twice the time for each.
+fn brackets(header: &str) -> usize {
+    let (mut open, mut most) = (0usize, 0);
+    for letter in header.chars() {
+        match letter {
+            '(' | '[' | '{' => open += 1,
+            ')' | ']' | '}' => open = open.saturating_sub(1),
+            _ => {}
+        }
+        most = most.max(open);
+    }
+    most
+}
+
 /// An array whose shape is that of the screen.
 struct Array(NpyFile<BufReader<File>>);
 
@@ -108,19 +124,33 @@ impl Array {
             .context("is no numpy array: it is shorter than a header; write it with numpy.save")?;
         ensure!(start.starts_with(b"\x93NUMPY"), "no array of numpy: it does not begin with \\x93NUMPY");
         let (before, header) = match start[6] {
-            1 => (10, u64::from(u16::from_le_bytes([start[8], start[9]]))),
+            1 => (10usize, u64::from(u16::from_le_bytes([start[8], start[9]]))),
             _ => (12, u64::from(u32::from_le_bytes([start[8], start[9], start[10], start[11]]))),
         };
         ensure!(header <= MAX_HEADER, "a header of {header} bytes; permitted: {MAX_HEADER}");
-        let mut text = Vec::new();
-        file.by_ref().take((before + header).saturating_sub(start.len() as u64)).read_to_end(&mut text)?;
+        let mut text = start[before..].to_vec();
+        file.by_ref().take(header.saturating_sub(text.len() as u64)).read_to_end(&mut text)?;
+        let text = String::from_utf8_lossy(&text);
+        let deep = brackets(&text);
         ensure!(
-            are_countable(&String::from_utf8_lossy(&text)),
+            deep <= MAX_BRACKETS,
+            "its header has brackets {deep} deep; permitted: {MAX_BRACKETS}; write the array with numpy.save"
+        );
+        ensure!(
+            are_countable(&text),
             "its header has a length that is no decimal number, or more values than 64 bits count; permitted: {width} columns, {height} \
              lines"
         );
         file.rewind()?;
-        let array = NpyFile::new(file)?;
+        // What is wrong in a header is told over several lines, with the header.
+        let array = NpyFile::new(file).map_err(|error| {
+            let error = error.to_string();
+            anyhow!(
+                "its header is none of numpy's ({}); permitted: a dictionary of descr, fortran_order and shape; write the array \
+                 with numpy.save",
+                error.lines().next().unwrap_or_default()
+            )
+        })?;
         let mut shape = vec![u64::from(height), u64::from(width)];
         shape.extend(colors.then_some(3));
         ensure!(
