@@ -2,7 +2,7 @@
 //! what is refused with which words.
 #![allow(clippy::unwrap_used)] // a test that unwraps nothing reports it
 
-use crate::support::{edgewalk, npy, run};
+use crate::support::{PASSES, edgewalk, npy, run};
 use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64Mcg;
 use serde_json::Value;
@@ -54,18 +54,6 @@ fn thirty_layers_over_100_000_pixels_lie_within_the_running_bound() {
 }
 
 /// The example of `docs/triangle_file.md`, and the same with everything that may change.
-const PASSES: &str = "size 64 64
-colour_write 0
-T  0 0 0.5 1 0 0 0   64 0 0.5 1 0 0 0   0 64 0.5 1 0 0 0
-colour_write 1
-depth equal
-depth_write 0
-T  0 0 0.5 1 0 0 0   64 0 0.5 1 0 0 0   0 64 0.5 1 0 0 0
-depth less
-blend 1
-T  0 0 0.4 0 0 1 0.5   64 0 0.4 0 0 1 0.5   0 64 0.4 0 0 1 0.5
-";
-
 #[test]
 fn a_frame_of_passes_is_the_same_in_every_engine() {
     let folder = tempfile::tempdir().unwrap();

@@ -1,20 +1,11 @@
 //! `edgewalk raster` with a light's map: the machine beside golden, and what it cannot do.
 #![allow(clippy::unwrap_used)] // a test that unwraps nothing reports it
 
-use crate::support::{edgewalk, npy, run};
+use crate::support::{HALF, edgewalk, npy, run};
 use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64Mcg;
 use std::fmt::Write as _;
 use std::path::Path;
-
-/// The example of `docs/triangle_file.md`: a square that darkens the half of the picture under it.
-const HALF: &str = "size 4 4
-depth lequal
-shadow 4 0.001 0.25   1 0 0 0   0 1 0 0   0 0 1 0   0 0 0 1
-L  0 0 0.25   2 0 0.25   0 4 0.25
-L  2 0 0.25   2 4 0.25   0 4 0.25
-T  0 0 0.5 1 1 1 0   8 0 0.5 1 1 1 0   0 8 0.5 1 1 1 0
-";
 
 /// lit, and the colours.
 fn raster(folder: &Path, engine: &str, size: u32) -> (Vec<u8>, Vec<f64>) {

@@ -1,6 +1,6 @@
 //! `edgewalk replay` as a user runs it: what it writes, what it refuses and in which words.
 
-use crate::support::{self, SCREEN, TRIANGLE, edgewalk, names, run};
+use crate::support::{self, HALF, PASSES, SCREEN, TRIANGLE, edgewalk, names, run};
 use std::path::Path;
 
 fn replay(folder: &Path, arguments: &[&str]) -> serde_json::Value {
@@ -142,25 +142,7 @@ fn bilinear_colours_have_the_bound_of_their_edges() {
     assert!(worst > 0.6, "{worst}: more than with edges in their places");
 }
 
-/// Passes with blending; a light's map; normals, more triangles than records at once.
-const PASSES: &str = "size 64 64
-colour_write 0
-T  0 0 0.5 1 0 0 0   64 0 0.5 1 0 0 0   0 64 0.5 1 0 0 0
-colour_write 1
-depth equal
-depth_write 0
-T  0 0 0.5 1 0 0 0   64 0 0.5 1 0 0 0   0 64 0.5 1 0 0 0
-depth less
-blend 1
-T  0 0 0.4 0 0 1 0.5   64 0 0.4 0 0 1 0.5   0 64 0.4 0 0 1 0.5
-";
-const HALF: &str = "size 4 4
-depth lequal
-shadow 4 0.001 0.25   1 0 0 0   0 1 0 0   0 0 1 0   0 0 0 1
-L  0 0 0.25   2 0 0.25   0 4 0.25
-L  2 0 0.25   2 4 0.25   0 4 0.25
-T  0 0 0.5 1 1 1 0   8 0 0.5 1 1 1 0   0 8 0.5 1 1 1 0
-";
+/// Normals, of more triangles than there are records at once.
 pub const NORMALS: &str = "size 32 32
 mode fast-phong
 view 0 0 1

@@ -18,7 +18,7 @@ mod still;
 #[path = "sweep/synth.rs"]
 mod synth;
 
-use crate::support::{edgewalk, report, run};
+use crate::support::{HALF, PASSES, edgewalk, report, run};
 use rand::SeedableRng;
 use rand::seq::IndexedRandom;
 use rand_pcg::Pcg64Mcg;
@@ -184,24 +184,6 @@ const SWEEPS: [&[&str]; 9] = [
     ],
 ];
 
-const PASSES: &str = "size 64 64
-colour_write 0
-T  0 0 0.5 1 0 0 0   64 0 0.5 1 0 0 0   0 64 0.5 1 0 0 0
-colour_write 1
-depth equal
-depth_write 0
-T  0 0 0.5 1 0 0 0   64 0 0.5 1 0 0 0   0 64 0.5 1 0 0 0
-depth less
-blend 1
-T  0 0 0.4 0 0 1 0.5   64 0 0.4 0 0 1 0.5   0 64 0.4 0 0 1 0.5
-";
-const LIGHT: &str = "size 4 4
-depth lequal
-shadow 4 0.001 0.25   1 0 0 0   0 1 0 0   0 0 1 0   0 0 0 1
-L  0 0 0.25   2 0 0.25   0 4 0.25
-L  2 0 0.25   2 4 0.25   0 4 0.25
-T  0 0 0.5 1 1 1 0   8 0 0.5 1 1 1 0   0 8 0.5 1 1 1 0
-";
 const NORMALS: &str = "size 32 32
 mode fast-phong
 view 0 0 1
@@ -216,7 +198,7 @@ fn rows_drawn_by_seed_equal_render_in_every_figure() {
     let folder = tempfile::tempdir().unwrap();
     let own =
         "size 64 48\nextra 2\nT 0 0 0 1 0 0 0  60 0 0.5 0 1 0 0  0 40 1 0 0 1 0\nX 0 1  0.25 0.5  1 0.75\n";
-    let files = [("own.tri", own), ("passes.tri", PASSES), ("light.tri", LIGHT), ("normals.tri", NORMALS)];
+    let files = [("own.tri", own), ("passes.tri", PASSES), ("light.tri", HALF), ("normals.tri", NORMALS)];
     for (name, text) in files {
         std::fs::write(folder.path().join(name), text).unwrap();
     }
@@ -248,7 +230,7 @@ fn size_and_compare_take_them_too() {
     let mut checked = 0;
     for (name, text, settings, other) in [
         ("passes.tri", PASSES, "blend.kind=constant", "interpolator.adders=1"),
-        ("light.tri", LIGHT, "shadow.light=parallel,shadow.size=4,shadow.gate=scale", "setup.lanes=1"),
+        ("light.tri", HALF, "shadow.light=parallel,shadow.size=4,shadow.gate=scale", "setup.lanes=1"),
         ("normals.tri", NORMALS, "shade.kind=fast-phong", "shade.table_bits=10"),
     ] {
         std::fs::write(folder.path().join(name), text).unwrap();

@@ -4,6 +4,12 @@ use crate::common;
 use edgewalk_model::DrawState;
 use edgewalk_vectors::{Runs, StallKind, Suite, Unit, capture, design};
 
+/// Prints how many port values were compared of all machines; each has more than `least`.
+fn more_than(least: u64, compared: &[u64]) {
+    println!("{} machines, {} port values compared", compared.len(), compared.iter().sum::<u64>());
+    assert!(compared.iter().all(|compared| *compared > least), "{compared:?}");
+}
+
 /// Stalls take turns over machines, suites and units, so that each meets each.
 #[test]
 fn every_unit_and_the_machine() {
@@ -15,15 +21,8 @@ fn every_unit_and_the_machine() {
             let suite = Suite::named(machine, suite, 3, 30).expect("listed");
             let of_suite = Runs::new(machine, &suite, DrawState::default());
             for (k, unit) in Unit::all(machine).into_iter().enumerate() {
-                let stalls = StallKind::ALL[(i + j + k) % 3];
-                let trace = of_suite.capture(unit, stalls);
-                match natives.lockstep(&trace) {
-                    Ok(agreement) => {
-                        assert_eq!(agreement.compared, trace.port_values());
-                        compared += agreement.compared;
-                    }
-                    Err(error) => panic!("{name}, {}, stalls {}: {error}", suite.name, stalls.name()),
-                }
+                let trace = of_suite.capture(unit, StallKind::ALL[(i + j + k) % 3]);
+                compared += natives.compared(name, &trace);
                 runs += 1;
             }
         }
@@ -50,15 +49,12 @@ fn every_suite_of_blend() {
             let in_turn = |unit: &Unit| suite.is_for(*unit) && (*unit != Unit::MACHINE || i % 2 == j);
             for unit in Unit::all(machine).into_iter().filter(in_turn) {
                 let trace = runs.capture(unit, suite.stalls);
-                let agreement = natives.lockstep(&trace).unwrap_or_else(|error| panic!("{name}: {error}"));
-                assert_eq!(agreement.compared, trace.port_values());
-                compared += agreement.compared;
+                compared += natives.compared(name, &trace);
             }
         }
         compared
     });
-    println!("{} machines, {} port values compared", compared.len(), compared.iter().sum::<u64>());
-    assert!(compared.iter().all(|compared| *compared > 100_000), "{compared:?}");
+    more_than(100_000, &compared);
 }
 
 /// Lines and triangles in turn, in each pass of the machine that draws its map; the events of lines are met.
@@ -74,10 +70,7 @@ fn every_suite_of_lines() {
                 let runs = Runs::new(machine, &suite, DrawState { light_pass, ..suite.state });
                 for unit in Unit::all(machine) {
                     let trace = runs.capture(unit, StallKind::ALL[(i + j) % 3]);
-                    let agreement =
-                        natives.lockstep(&trace).unwrap_or_else(|error| panic!("{name}: {error}"));
-                    assert_eq!(agreement.compared, trace.port_values());
-                    compared += agreement.compared;
+                    compared += natives.compared(name, &trace);
                     met.merge(&trace.events);
                 }
             }
@@ -87,8 +80,7 @@ fn every_suite_of_lines() {
         }
         compared
     });
-    println!("{} machines, {} port values compared", compared.len(), compared.iter().sum::<u64>());
-    assert!(compared.iter().all(|compared| *compared > 100_000), "{compared:?}");
+    more_than(100_000, &compared);
 }
 
 /// Polygons in each unit; every event of POLY is met by the directed suites.
@@ -104,10 +96,7 @@ fn every_suite_of_polygons() {
                 let runs = Runs::new(machine, &suite, DrawState { light_pass, ..suite.state });
                 for unit in Unit::all(machine) {
                     let trace = runs.capture(unit, StallKind::ALL[(i + j) % 3]);
-                    let agreement =
-                        natives.lockstep(&trace).unwrap_or_else(|error| panic!("{name}: {error}"));
-                    assert_eq!(agreement.compared, trace.port_values());
-                    compared += agreement.compared;
+                    compared += natives.compared(name, &trace);
                     met.merge(&trace.events);
                 }
             }
@@ -120,8 +109,7 @@ fn every_suite_of_polygons() {
         let of_poly = ["polygon_", "load_", "window_"].iter().any(|name| event.starts_with(name));
         assert!(!of_poly || count > 0, "{event} is not met");
     }
-    println!("{} machines, {} port values compared", all.len(), all.iter().map(|(n, _)| n).sum::<u64>());
-    assert!(all.iter().all(|(compared, _)| *compared > 100_000));
+    more_than(100_000, &all.iter().map(|(compared, _)| *compared).collect::<Vec<u64>>());
 }
 
 /// SHADOW, its directed suites and those of hazards; the whole machine, whose lock-step takes the longest, once each.
@@ -140,15 +128,12 @@ fn every_suite_of_shadow() {
             };
             for unit in Unit::all(machine).into_iter().filter(in_turn) {
                 let trace = runs.capture(unit, StallKind::ALL[(i + j) % 3]);
-                let agreement = natives.lockstep(&trace).unwrap_or_else(|error| panic!("{name}: {error}"));
-                assert_eq!(agreement.compared, trace.port_values());
-                compared += agreement.compared;
+                compared += natives.compared(name, &trace);
             }
         }
         compared
     });
-    println!("{} machines, {} port values compared", compared.len(), compared.iter().sum::<u64>());
-    assert!(compared.iter().all(|compared| *compared > 100_000), "{compared:?}");
+    more_than(100_000, &compared);
 }
 
 /// TERM, TEXEL, BUMP, NORMAL, LAMP and SHADE, their directed suite and those of hazards; the whole machine, whose lock-step takes the longest, once each.
@@ -170,15 +155,12 @@ fn every_suite_of_shade() {
             };
             for unit in Unit::all(machine).into_iter().filter(in_turn) {
                 let trace = runs.capture(unit, StallKind::ALL[(i + j) % 3]);
-                let agreement = natives.lockstep(&trace).unwrap_or_else(|error| panic!("{name}: {error}"));
-                assert_eq!(agreement.compared, trace.port_values());
-                compared += agreement.compared;
+                compared += natives.compared(name, &trace);
             }
         }
         compared
     });
-    println!("{} machines, {} port values compared", compared.len(), compared.iter().sum::<u64>());
-    assert!(compared.iter().all(|compared| *compared > 100_000), "{compared:?}");
+    more_than(100_000, &compared);
 }
 
 /// DITHER and DEPTH behind it, the directed suite and those of hazards; the whole machine once for each.
@@ -193,15 +175,12 @@ fn every_suite_of_dither() {
             let wanted = [common::DITHER, common::DEPTH, Unit::MACHINE];
             for unit in Unit::all(machine).into_iter().filter(|unit| wanted.contains(unit)) {
                 let trace = runs.capture(unit, StallKind::ALL[(i + j) % 3]);
-                let agreement = natives.lockstep(&trace).unwrap_or_else(|error| panic!("{name}: {error}"));
-                assert_eq!(agreement.compared, trace.port_values());
-                compared += agreement.compared;
+                compared += natives.compared(name, &trace);
             }
         }
         compared
     });
-    println!("{} machines, {} port values compared", compared.len(), compared.iter().sum::<u64>());
-    assert!(compared.iter().all(|compared| *compared > 50_000), "{compared:?}");
+    more_than(50_000, &compared);
 }
 
 /// Before a depth of half of full scale each function but never and always passes some fragments and not others, under

@@ -16,6 +16,28 @@ pub fn root() -> PathBuf {
 /// A triangle on 64 x 48 pixels.
 pub const TRIANGLE: &str = "size 64 48\nT 0 0 0 1 0 0 0  60 0 0 0 1 0 0  0 40 1 0 0 1 0\n";
 
+/// The example of passes in `docs/triangle_file.md`: depths first, then colours, then a pane.
+pub const PASSES: &str = "size 64 64
+colour_write 0
+T  0 0 0.5 1 0 0 0   64 0 0.5 1 0 0 0   0 64 0.5 1 0 0 0
+colour_write 1
+depth equal
+depth_write 0
+T  0 0 0.5 1 0 0 0   64 0 0.5 1 0 0 0   0 64 0.5 1 0 0 0
+depth less
+blend 1
+T  0 0 0.4 0 0 1 0.5   64 0 0.4 0 0 1 0.5   0 64 0.4 0 0 1 0.5
+";
+
+/// The example of a light's map in `docs/triangle_file.md`: a square that darkens the half of the picture under it.
+pub const HALF: &str = "size 4 4
+depth lequal
+shadow 4 0.001 0.25   1 0 0 0   0 1 0 0   0 0 1 0   0 0 0 1
+L  0 0 0.25   2 0 0.25   0 4 0.25
+L  2 0 0.25   2 4 0.25   0 4 0.25
+T  0 0 0.5 1 1 1 0   8 0 0.5 1 1 1 0   0 8 0.5 1 1 1 0
+";
+
 /// The screen of [`TRIANGLE`], for commands that do not take it from the file.
 pub const SCREEN: [&str; 4] = ["--set", "screen.width=64", "--set", "screen.height=48"];
 

@@ -1,14 +1,14 @@
 //! Which machines a sweep has: all keys that are asked for reach them, and each counts once.
 
-use super::{LIGHT, NORMALS, keys, rows};
-use crate::support::{TRIANGLE, edgewalk, run};
+use super::{NORMALS, keys, rows};
+use crate::support::{HALF, TRIANGLE, edgewalk, run};
 use serde_json::Value;
 use std::path::Path;
 
 /// A folder with inputs.
 fn inputs() -> tempfile::TempDir {
     let folder = tempfile::tempdir().unwrap();
-    for (name, text) in [("a.tri", TRIANGLE), ("light.tri", LIGHT), ("normals.tri", NORMALS)] {
+    for (name, text) in [("a.tri", TRIANGLE), ("light.tri", HALF), ("normals.tri", NORMALS)] {
         std::fs::write(folder.path().join(name), text).unwrap();
     }
     folder

@@ -48,14 +48,19 @@ impl<'a> Natives<'a> {
         Natives { plan, compiled: BTreeMap::new() }
     }
 
-    /// Runs the unit of the trace beside the model, from the state that it has before the first clock.
-    pub fn lockstep(&mut self, trace: &Trace) -> Result<Agreement, LockstepError> {
+    /// Runs the unit of the trace beside the model, from the state that it has before the first clock: how many port values
+    /// were compared, which is all of the trace. `machine` is the machine's name among the tests' machines.
+    pub fn compared(&mut self, machine: &str, trace: &Trace) -> u64 {
         let unit = trace.interface.unit;
         let device = self.compiled.entry(unit.name()).or_insert_with(|| {
             let netlist = edgewalk_vectors::design::netlist(self.plan, unit).expect("a checked machine");
             native(&netlist, &trace.interface).expect("the ports that are declared")
         });
-        trace.lockstep_of(&mut device.clone())
+        let agreement = trace.lockstep_of(&mut device.clone());
+        let compared =
+            agreement.unwrap_or_else(|error| panic!("{machine}, {}: {error}", unit.name())).compared;
+        assert_eq!(compared, trace.port_values(), "{machine}, {}", unit.name());
+        compared
     }
 }
 
