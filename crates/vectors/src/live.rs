@@ -39,20 +39,21 @@ impl Iterator for Given {
 /// A unit of the model in the middle of a simulation.
 pub struct Live {
     interface: Interface,
-    /// Where the rig's tokens are put.
+    /// The sender of the channel that the rig reads tokens from.
     given: mpsc::Sender<Token>,
     rig: Rig<Given>,
     device: Box<dyn ModelDevice + Send>,
     ports: PortValues,
-    /// Words of a token that is taken word by word, as far as they have come.
+    /// The first words of a token that is sent word by word.
     words: Token,
-    /// For each link what came and was not asked for.
+    /// For each link: the tokens that left the unit and were not read.
     came: Vec<VecDeque<Token>>,
     watched: Vec<StatusPort>,
-    /// What these showed last.
+    /// The values of these ports in the last cycle.
     status: Token,
-    /// Cycles since anything happened, and how many of them say that nothing more will.
+    /// Cycles in a row without a token and without a change of these ports.
     quiet: u64,
+    /// After so many such cycles no token comes any more.
     patience: u64,
 }
 
@@ -166,10 +167,10 @@ impl Live {
     }
 }
 
-/// Cycles between two questions.
+/// Cycles between two calls of `go_on`.
 const BETWEEN: u32 = 4096;
 
-/// Counts a cycle, and asks whether to go on.
+/// Counts a cycle, and calls `go_on` now and then.
 fn asked<E>(cycles: &mut u32, go_on: &mut impl FnMut() -> Result<(), E>) -> Result<(), E> {
     *cycles += 1;
     if cycles.is_multiple_of(BETWEEN) { go_on() } else { Ok(()) }
