@@ -364,13 +364,15 @@ fn arrays_that_cannot_be_are_refused() {
     let pixels = 64 * 48;
     for folder in [
         "short", "turned", "shape", "type", "cut", "header", "many", "empty", "int", "nonsense", "huge",
-        "hex", "deep",
+        "hex", "deep", "five", "four",
     ] {
         std::fs::create_dir(at(folder)).unwrap();
     }
     npy(&at("shape/z.npy"), "<f8", "(48, 65)", &values(48 * 65));
     npy(&at("huge/z.npy"), "<f8", "(4294967296, 4294967296, 0)", &[]);
     npy(&at("deep/z.npy"), "<f8", &("[".repeat(9000) + &"]".repeat(9000)), &[]);
+    npy(&at("five/z.npy"), "<f8", "[[[[48]]]]", &[]);
+    npy(&at("four/z.npy"), "<f8", "[[[48]]]", &[]);
     npy(&at("hex/z.npy"), "<f8", "(0x100000000, 0x100000000)", &[]);
     npy(&at("turned/rgb.npy"), "<f8", "(3, 48, 64)", &values(3 * pixels));
     npy(&at("type/z.npy"), "<c16", "(48, 64)", &values(2 * pixels));
@@ -390,7 +392,7 @@ fn arrays_that_cannot_be_are_refused() {
     std::fs::write(at("not.png"), b"nothing").unwrap();
     image::RgbImage::new(64, 47).save(at("small.png")).unwrap();
     image::RgbImage::new(64, 48).save(at("mine.png")).unwrap();
-    let cases: [(&[&str], &str); 24] = [
+    let cases: [(&[&str], &str); 26] = [
         (&["huge"], "more values than 64 bits count; permitted: 64 columns, 48 lines"),
         (&["hex"], "a length that is no decimal number"),
         (&["shape"], "its shape is [48, 65]; permitted: [48, 64], lines from the top, columns"),
@@ -404,6 +406,8 @@ fn arrays_that_cannot_be_are_refused() {
         ),
         (&["short"], "shorter than a header"),
         (&["header"], "permitted: 65536"),
+        (&["five"], "its header has brackets 5 deep; permitted: 4; write the array with numpy.save"),
+        (&["four"], "its header is none of numpy's ("),
         (&["deep"], "its header has brackets 9001 deep; permitted: 4"),
         (
             &["nonsense"],

@@ -54,15 +54,15 @@ fn bits_of_the_machine_leave_its_bounds() {
     }
 }
 
-/// An array of numpy with 32 x 32 values, or colours.
-fn npy(path: &Path, descr: &str, each: usize, value: &[u8]) {
+/// An array of numpy with 32 x 32 values, or colours (`each` = 3).
+fn npy(path: &Path, descr: &str, each: usize, values: &[u8]) {
     let colors = if each == 3 { ", 3" } else { "" };
     let header = format!("{{'descr': '{descr}', 'fortran_order': False, 'shape': (32, 32{colors}), }}");
     let padded = format!("{header:<117}\n");
     let mut file = b"\x93NUMPY\x01\x00".to_vec();
     file.extend((padded.len() as u16).to_le_bytes());
     file.extend(padded.as_bytes());
-    file.extend(value.repeat(32 * 32 * each));
+    file.extend(values);
     std::fs::write(path, file).unwrap();
 }
 
@@ -107,7 +107,8 @@ fn values_out_of_range_are_refused() {
     ];
     for (name, descr, value, parts) in cases {
         let file = folder.path().join(format!("{name}.npy"));
-        npy(&file, descr, if name == "rgb" { 3 } else { 1 }, &value);
+        let each = if name == "rgb" { 3 } else { 1 };
+        npy(&file, descr, each, &value.repeat(32 * 32 * each));
         let (code, _, error) = judged(folder.path(), &[&format!("{name}.npy")]);
         assert_eq!(code, Some(2), "{name} {value:?}: {error}");
         for part in parts {
@@ -116,7 +117,7 @@ fn values_out_of_range_are_refused() {
         std::fs::remove_file(file).unwrap();
     }
     // Single precision may be a little outside.
-    npy(&folder.path().join("z.npy"), "<f4", 1, &1.000_001f32.to_le_bytes());
+    npy(&folder.path().join("z.npy"), "<f4", 1, &1.000_001f32.to_le_bytes().repeat(32 * 32));
     assert_eq!(judged(folder.path(), &["z.npy"]).0, Some(1));
 }
 
@@ -170,4 +171,20 @@ fn pngs_of_machines_of_other_bits_are_right() {
         let (_, report, _) = judged(folder.path(), &asked);
         assert_eq!(report["tolerance"]["color"], 0.5, "{bits}");
     }
+}
+
+/// Integers have the bits that DITHER stores, not those before it.
+#[test]
+fn integers_of_dither_are_what_it_stores() {
+    let (folder, dither) = (folder(TWO), ["--set", "dither.bits=4"]);
+    raster(folder.path(), &dither, "m");
+    let (_, _, bytes) = crate::support::npy(&folder.path().join("m/rgb.npy"));
+    let stored = |value: &[u8]| (f64::from_le_bytes(value.try_into().unwrap()) * 15.0).round() as u8;
+    let stored: Vec<u8> = bytes.chunks_exact(8).map(stored).collect();
+    assert!(stored.len() == 32 * 32 * 3 && stored.contains(&15) && stored.contains(&7), "{stored:?}");
+    npy(&folder.path().join("rgb.npy"), "|u1", 3, &stored);
+    let judged = |options: &[&str]| judged(folder.path(), &[&["rgb.npy"], &dither[..], options].concat());
+    let (code, report, error) = judged(&[]);
+    assert_eq!((code, &report["wrong"]), (Some(0), &0.into()), "{error}{report}");
+    assert_eq!(judged(&["--color-bits", "8"]).0, Some(1), "bits before DITHER");
 }

@@ -142,7 +142,7 @@ impl Array {
              lines"
         );
         file.rewind()?;
-        // What is wrong in a header is told over several lines, with the header.
+        // The error of a bad header quotes all of it below a first line, which is enough.
         let array = NpyFile::new(file).map_err(|error| {
             let error = error.to_string();
             anyhow!(
