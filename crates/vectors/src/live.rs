@@ -117,8 +117,8 @@ impl Live {
         self.quiet = 0;
     }
 
-    /// The next token that leaves on the link of this place; none if what was given so far makes no more. `go_on` is asked now and
-    /// then: a token that breaks the unit's rules may keep it busy for ever.
+    /// The next token that leaves on the link of this place; none if what was given so far makes no more. `go_on` is called
+    /// after every 4096 cycles: a token that breaks the unit's rules may keep it busy for ever.
     ///
     /// # Errors
     /// Those of `go_on`.
@@ -170,7 +170,7 @@ impl Live {
 /// Cycles between two calls of `go_on`.
 const BETWEEN: u32 = 4096;
 
-/// Counts a cycle, and calls `go_on` now and then.
+/// Counts a cycle, and calls `go_on` after every [`BETWEEN`].
 fn asked<E>(cycles: &mut u32, go_on: &mut impl FnMut() -> Result<(), E>) -> Result<(), E> {
     *cycles += 1;
     if cycles.is_multiple_of(BETWEEN) { go_on() } else { Ok(()) }

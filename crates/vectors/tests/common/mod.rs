@@ -57,9 +57,9 @@ impl<'a> Natives<'a> {
             native(&netlist, &trace.interface).expect("the ports that are declared")
         });
         let agreement = trace.lockstep_of(&mut device.clone());
-        let compared =
-            agreement.unwrap_or_else(|error| panic!("{machine}, {}: {error}", unit.name())).compared;
-        assert_eq!(compared, trace.port_values(), "{machine}, {}", unit.name());
+        let run = format!("{machine}, {}, stalls {}", unit.name(), trace.stalls.name());
+        let compared = agreement.unwrap_or_else(|error| panic!("{run}: {error}")).compared;
+        assert_eq!(compared, trace.port_values(), "{run}");
         compared
     }
 }
