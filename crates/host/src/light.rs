@@ -9,6 +9,7 @@
 //! ```
 //! 2^k is of the triangle, so that its numbers fill their words; what PROJECT divides does not see it.
 
+use crate::needs::OR_GOLDEN;
 use anyhow::{Context as _, Result, anyhow};
 use edgewalk_golden::snap;
 use edgewalk_machine::keys::KEYS;
@@ -30,13 +31,13 @@ pub fn check(shadow: &Shadow, machine: &Plan) -> Result<()> {
     let side = KEYS.iter().find(|key| key.name == "shadow.size" && key.parse(&given.to_string()).is_none());
     if let Some(key) = side {
         return Err(anyhow!(
-            "shadow {given}: a machine's map has {} texels a side; give the shadow such a size, or draw with --engine golden",
+            "shadow {given}: a machine's map has {} texels a side; give the shadow such a size{OR_GOLDEN}",
             key.permitted()
         ));
     }
     if given != own {
         return Err(anyhow!(
-            "shadow {given}: another light's map has {own} x {own} texels, and the machine's maps are alike; give all lights one SIZE, or draw with --engine golden"
+            "shadow {given}: another light's map has {own} x {own} texels, and the machine's maps are alike; give all lights one SIZE{OR_GOLDEN}"
         ));
     }
     if shadow.matrix[3] == [0.0; 4] {

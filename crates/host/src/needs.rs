@@ -124,7 +124,7 @@ impl NotMet {
 
 impl fmt::Display for NotMet {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        let golden = if self.by_golden { ", or draw with --engine golden" } else { "" };
+        let golden = if self.by_golden { OR_GOLDEN } else { "" };
         let settings = self.met_by_settings();
         write!(f, "{settings}, or --adapt, which sets the keys that are not given{golden}")
     }
@@ -136,10 +136,13 @@ pub fn reason(error: &anyhow::Error) -> String {
     error.downcast_ref().map_or_else(|| without_engine(&format!("{error:#}")), NotMet::met_by_settings)
 }
 
+/// The end of a message about a frame that golden draws and the machine does not.
+pub const OR_GOLDEN: &str = ", or draw with --engine golden";
+
 /// A message without the advice to draw with golden, for commands that have no --engine.
 #[must_use]
 pub fn without_engine(message: &str) -> String {
-    message.replace(", or draw with --engine golden", "")
+    message.replace(OR_GOLDEN, "")
 }
 
 /// BLEND, and one k_t for a triangle or more; a machine with a screen door mixes by that.

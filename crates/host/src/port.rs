@@ -1,7 +1,7 @@
 //! A frame's way to the machine's port.
 
 use crate::light::{self, Map};
-use crate::needs;
+use crate::needs::{self, OR_GOLDEN};
 use crate::polygon::{self, Piece};
 use crate::raster::{Cycles, LightPass, Raster};
 use crate::shade::{Feed, feed, shading_for};
@@ -157,7 +157,7 @@ pub fn to_port(frame: &Frame, machine: &Plan) -> Result<PortFrame> {
         light::check(shadow, machine)?;
         if frame.shading.is_some() {
             return Err(anyhow!(
-                "shadow: a frame that is shaded at each pixel has no light's map in the machine; permitted: mode gouraud or flat; change the mode, or draw with --engine golden"
+                "shadow: a frame that is shaded at each pixel has no light's map in the machine; permitted: mode gouraud or flat; change the mode{OR_GOLDEN}"
             ));
         }
     }

@@ -1,6 +1,7 @@
 //! Vertices snapped to the machine's port.
 
 use crate::light;
+use crate::needs::OR_GOLDEN;
 use anyhow::{Context as _, Error, Result, anyhow};
 use edgewalk_machine::{Plan, PortVertex, VertexError};
 use edgewalk_scene::{Blending, Frame, ShadeMode, State, Triangle};
@@ -73,7 +74,7 @@ pub(crate) fn port_vertices(
 fn under(error: VertexError, state: &State) -> Error {
     match error {
         VertexError::Channel { channel: "lx" | "ly" | "lz", .. } => anyhow!(
-            "{error} under light {}; give its `shadow` line a larger SIZE or other numbers, or draw with --engine golden",
+            "{error} under light {}; give its `shadow` line a larger SIZE or other numbers{OR_GOLDEN}",
             state.light
         ),
         error => error.into(),

@@ -1,20 +1,22 @@
 //! The exception of the module, and the way to it from errors and panics.
 
-use edgewalk_host::needs::NotMet;
+use edgewalk_host::needs::{self, NotMet};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 pyo3::create_exception!(edgewalk, Error, PyValueError, "What the program would say and end with.");
 
-/// The exception with the whole message.
+/// The advice to draw with golden, in Python's words.
+const OR_GOLDEN: &str = ", or draw with engine=\"golden\"";
+
+/// The exception with the whole message. Advice for the command line is put in Python's words.
 pub fn raised(error: &anyhow::Error) -> PyErr {
-    // Of all that may be said to do, only this is said in words of the command line.
     let Some(NotMet { why, settings, by_golden }) = error.downcast_ref() else {
-        return Error::new_err(format!("{error:#}"));
+        return Error::new_err(format!("{error:#}").replace(needs::OR_GOLDEN, OR_GOLDEN));
     };
     let settings: Vec<String> = settings.iter().map(|(key, value)| format!("{key:?}: {value:?}")).collect();
-    let golden = if *by_golden { ", or draw with engine=\"golden\"" } else { "" };
+    let golden = if *by_golden { OR_GOLDEN } else { "" };
     Error::new_err(format!("{why}; give a machine.with_keys({{{}}}){golden}", settings.join(", ")))
 }
 

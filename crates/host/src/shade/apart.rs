@@ -9,6 +9,7 @@
 
 use super::bound::Proof;
 use super::lights::one_kind;
+use crate::needs::OR_GOLDEN;
 use anyhow::{Result, anyhow};
 use edgewalk_machine::Plan;
 use edgewalk_scene::{Blending, Frame, Material, PixelShading};
@@ -26,7 +27,7 @@ pub fn apart(frame: &Frame, machine: &Plan) -> Result<Option<Vec<Frame>>> {
     one_kind(shading, machine)?;
     if frame.blend != Blending::Off || frame.passes().len() > 1 {
         return Err(anyhow!(
-            "{} lights: the machine draws a picture for each, and a surface is seen through; take one light, or kt = 0, or draw with --engine golden",
+            "{} lights: the machine draws a picture for each, and a surface is seen through; take one light, or kt = 0{OR_GOLDEN}",
             shading.lights.len()
         ));
     }

@@ -7,6 +7,7 @@
 //! ```
 
 use super::roots;
+use crate::needs::OR_GOLDEN;
 use anyhow::{Result, anyhow};
 use edgewalk_machine::Plan;
 use edgewalk_scene::{Attenuation, Light, PixelShading, PixelTriangle};
@@ -90,7 +91,7 @@ impl Point {
         let (position, attenuation, beam) = match *light {
             Light::Directional { .. } => {
                 return Err(anyhow!(
-                    "a directional light: with shade.light = positional lights stand at a point; add --set shade.light=directional, or draw with --engine golden"
+                    "a directional light: with shade.light = positional lights stand at a point; add --set shade.light=directional{OR_GOLDEN}"
                 ));
             }
             Light::Positional { position, attenuation, .. } => (position, attenuation, None),

@@ -1,6 +1,7 @@
 //! The lights of a frame as the machine takes them, and a triangle's six cosines of each.
 
 use super::lamp::Point;
+use crate::needs::OR_GOLDEN;
 use anyhow::{Result, anyhow};
 use edgewalk_machine::Plan;
 use edgewalk_scene::{Attenuation, Light, PixelShading, PixelTriangle, Viewer};
@@ -31,7 +32,7 @@ pub fn one_kind(shading: &PixelShading, machine: &Plan) -> Result<()> {
     match (place(true), place(false)) {
         (Some(far), Some(near)) if machine.shade.normalises() => Err(anyhow!(
             "light {} is a directional light and light {} stands at a point: no machine with shade.kind = phong draws both kinds \
-             in one picture; take lights of one kind, or draw with --engine golden",
+             in one picture; take lights of one kind{OR_GOLDEN}",
             far + 1,
             near + 1
         )),
@@ -53,8 +54,7 @@ impl Lamp {
         let far_away = machine.shade.normalises() && !machine.shade.is_positional();
         if let Some(place) = shading.lights.iter().position(|light| far_away && !is_far(light)) {
             return Err(anyhow!(
-                "light {}: with shade.kind = phong N·L is linear, so every light is directional; add --set shade.light=positional\
-                 , or draw with --engine golden",
+                "light {}: with shade.kind = phong N·L is linear, so every light is directional; add --set shade.light=positional{OR_GOLDEN}",
                 place + 1
             ));
         }
@@ -65,9 +65,7 @@ impl Lamp {
             } else {
                 "permitted: 1 or 2, as shade.lights says; leave lights out"
             };
-            return Err(anyhow!(
-                "{given} lights: the machine has terms for {most}; {remedy}, or draw with --engine golden"
-            ));
+            return Err(anyhow!("{given} lights: the machine has terms for {most}; {remedy}{OR_GOLDEN}"));
         }
         if machine.shade.normalises() && matches!(shading.viewer, Viewer::At(_)) {
             return Err(anyhow!(
@@ -86,7 +84,7 @@ impl Lamp {
             }
             Light::Positional { .. } | Light::Flood { .. } => Err(anyhow!(
                 "light {}: its intensity is not the same everywhere, and the machine's tables hold one; take a directional \
-                 light or a positional one that does not weaken, or draw with --engine golden",
+                 light or a positional one that does not weaken{OR_GOLDEN}",
                 place + 1
             )),
         };

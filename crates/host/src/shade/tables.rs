@@ -3,6 +3,7 @@
 use super::lights::Lamp;
 use super::multiplies;
 use super::texels::Texture;
+use crate::needs::OR_GOLDEN;
 use anyhow::{Result, anyhow};
 use edgewalk_machine::{Entry, Plan};
 use edgewalk_numerics::index_table::{Diffuse, Highlight, IndexTable};
@@ -148,7 +149,7 @@ fn light_tables(
                 Diffuse { bits, base: base[k] * one, slope: slope[k] * one, most: one },
             )
         };
-        let top = grey(material.specular * intensity, "highlight", ", or draw with --engine golden")? * max;
+        let top = grey(material.specular * intensity, "highlight", OR_GOLDEN)? * max;
         if machine.shade.is_positional() && top > max * (1.0 + 1e-12) {
             return Err(anyhow!(
                 "a highlight of {} where the light is brightest: with shade.light = positional it is at most 1, for it is weakened behind its \
