@@ -181,14 +181,18 @@ fn the_jobs_of_setup_fill_its_clocks() {
     for plan in machines(22, &mut rng) {
         let triangles = drawn(&plan, 25, &mut rng);
         let mut before: Option<[u64; 4]> = None;
+        // The structure of a machine does not change.
+        let mut places = None;
         watch(&plan, &triangles, Stalls::NONE, &mut |view| {
-            let structure = view.structure();
-            let unit = structure.unit("setup").expect("declared");
-            let value = |name: &str| {
-                let id = registers(unit).into_iter().find(|id| structure.registers[*id].name == name);
-                view.values()[id.unwrap_or_else(|| panic!("{name}"))]
-            };
-            let now = [value("state"), value("job"), value("clock"), value("clocks")];
+            let ids = *places.get_or_insert_with(|| {
+                let structure = view.structure();
+                let unit = structure.unit("setup").expect("declared");
+                ["state", "job", "clock", "clocks"].map(|name| {
+                    let id = registers(unit).into_iter().find(|id| structure.registers[*id].name == name);
+                    id.unwrap_or_else(|| panic!("{name}"))
+                })
+            });
+            let now = ids.map(|id: usize| view.values()[id]);
             let [state, job, clock, of] = now;
             let works = state == 1 || state == 2;
             if works {
