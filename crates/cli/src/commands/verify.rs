@@ -2,6 +2,7 @@
 
 mod difference;
 mod events;
+mod netlists;
 mod nothing;
 mod own;
 
@@ -14,15 +15,15 @@ use crate::verdict::Verdict;
 use crate::{Talk, jobs, junit, progress};
 use anyhow::{Context, Result, anyhow};
 use edgewalk_files::{Scratch, Staging};
-use edgewalk_lockstep::LockstepError;
+use edgewalk_lockstep::{Agreement, LockstepError};
 use edgewalk_machine::{Plan, Unknown};
-use edgewalk_netlist::Netlist;
 use edgewalk_vectors::dut::Wiring;
 use edgewalk_vectors::{
     Files, Outcome, Runs, Simulator, StallKind, Suite, Tables, Trace, Unit, design, directory, reached,
     simulate,
 };
 use events::Events;
+use netlists::Netlists;
 use serde::Serialize;
 use serde_json::json;
 use std::collections::BTreeMap;
@@ -149,6 +150,7 @@ fn ours(args: &Args, machine: &Plan, suites: Vec<Suite>, talk: Talk) -> Result<V
     };
     let of = |(i, suite)| units(suite).into_iter().map(move |unit| (i, unit));
     let work: Vec<(usize, Unit)> = suites.iter().enumerate().flat_map(of).collect();
+    let netlists = Netlists::of(machine, work.iter().map(|(_, unit)| *unit))?;
     let limit = Duration::from_secs(args.limit);
     let bar = progress::bar(work.len() as u64, "suites and units", talk.quiet);
     let done = jobs::all(&work, &bar, |(place, unit)| {
@@ -159,9 +161,7 @@ fn ours(args: &Args, machine: &Plan, suites: Vec<Suite>, talk: Talk) -> Result<V
         } else {
             &ICARUS
         };
-        let netlist = edgewalk_lockstep::netlist(machine, *unit)
-            .map_err(|e| anyhow!("the netlist cannot be built: {e}"))?;
-        let mut checks = vec![against_netlist(&netlist, suite, &trace, &args.out)?];
+        let mut checks = vec![against_netlist(netlists.beside(&trace), suite, &trace, &args.out)?];
         if !args.no_simulators {
             let verilog =
                 design::verilog(machine, *unit).map_err(|e| anyhow!("the netlist cannot be built: {e}"))?;
@@ -180,10 +180,16 @@ fn ours(args: &Args, machine: &Plan, suites: Vec<Suite>, talk: Talk) -> Result<V
     Ok(checks.concat())
 }
 
-fn against_netlist(netlist: &Netlist, suite: &Suite, trace: &Trace, out: &Path) -> Result<Check> {
+/// What the run of a netlist beside the model came to; the replay of a difference goes into the folder `out`.
+fn against_netlist(
+    run: Result<Agreement, LockstepError>,
+    suite: &Suite,
+    trace: &Trace,
+    out: &Path,
+) -> Result<Check> {
     // How much ought to be compared follows from the model's run alone.
     let expected = trace.port_values();
-    let (checked, difference) = match trace.lockstep(netlist) {
+    let (checked, difference) = match run {
         Ok(agreement) => (agreement.compared, None),
         Err(LockstepError::Vacuous) => (0, None),
         Err(LockstepError::Differs { difference, compared }) => {

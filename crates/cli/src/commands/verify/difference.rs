@@ -113,10 +113,9 @@ mod tests {
             let before = pages;
             let of_module = mutants(&good).into_iter().filter(|mutant| mutant.module.contains(module));
             for mutant in of_module.step_by(7).take(12) {
-                let Err(LockstepError::Differs { difference, .. }) = trace.lockstep(&mutant.apply(&good))
-                else {
-                    continue;
-                };
+                let run = trace.lockstep(&mutant.apply(&good));
+                let Err(LockstepError::Differs { difference, .. }) = &run else { continue };
+                let difference = difference.clone();
                 let page =
                     super::page(&suite, &trace, &difference).expect("a replay").expect("of the machine");
                 let replay = replay(&page);
@@ -127,7 +126,7 @@ mod tests {
                 pages += 1;
                 // The command says the same, how much it compared before, and of how much.
                 let out = tempfile::tempdir().expect("a folder");
-                let check = super::super::against_netlist(&mutant.apply(&good), &suite, &trace, out.path());
+                let check = super::super::against_netlist(run, &suite, &trace, out.path());
                 let check = check.expect("a comparison");
                 assert_eq!(check.verdict(), Verdict::Mismatch);
                 assert_eq!(check.expected, trace.port_values());
