@@ -166,7 +166,7 @@ impl<S: Iterator<Item = Token>> Rig<S> {
             match (token, &mut self.noise) {
                 (Some(token), noise) if !link.words.is_empty() => {
                     let ports = ports.range_mut(&link.range());
-                    ports.copy_from_slice(&link.word(token, self.place));
+                    ports.iter_mut().zip(link.word(token, self.place)).for_each(|(port, word)| *port = word);
                     noise.iter_mut().for_each(|noise| disturb(link, self.place, noise, ports));
                 }
                 (Some(token), _) => ports.range_mut(&link.range()).copy_from_slice(token),

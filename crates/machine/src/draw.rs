@@ -27,6 +27,9 @@ pub struct DrawState {
     pub clear: [u64; 3],
 }
 
+/// Sets a constant to the value at its port.
+pub type Setter = fn(&mut DrawState, u128);
+
 impl Default for DrawState {
     /// The nearest fragment wins, mixed with what is there as its k_t says, on black; no map counts.
     fn default() -> Self {
@@ -60,19 +63,20 @@ impl DrawState {
 }
 
 impl DrawState {
-    /// Sets the constant of that name; false: there is none.
-    pub fn set(&mut self, name: &str, value: u128) -> bool {
-        match name {
-            "depth_func" => self.depth_func = value as u8, // 3 bits
-            "depth_write" => self.depth_write = value == 1,
-            "color_write" => self.color_write = value == 1,
-            "blend_add" => self.blend_add = value == 1,
-            "shadow_on" => self.shadow_on = value == 1,
-            "light_pass" => self.light_pass = value == 1,
-            "ambient" => self.ambient = value as u64, // at most 16 bits
-            _ => return false,
-        }
-        true
+    /// What sets the constant of that name, if there is one.
+    #[must_use]
+    pub fn setter(name: &str) -> Option<Setter> {
+        let setter: Setter = match name {
+            "depth_func" => |state, value| state.depth_func = value as u8, // 3 bits
+            "depth_write" => |state, value| state.depth_write = value == 1,
+            "color_write" => |state, value| state.color_write = value == 1,
+            "blend_add" => |state, value| state.blend_add = value == 1,
+            "shadow_on" => |state, value| state.shadow_on = value == 1,
+            "light_pass" => |state, value| state.light_pass = value == 1,
+            "ambient" => |state, value| state.ambient = value as u64, // at most 16 bits
+            _ => return None,
+        };
+        Some(setter)
     }
 }
 

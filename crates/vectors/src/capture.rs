@@ -256,10 +256,10 @@ impl<'a> Runs<'a> {
             counting = kept.iter().map(|kept| kept.counting(&ports).len() as u64).sum::<u64>();
             since_event += counting;
             kept.iter_mut().for_each(|kept| kept.clock(&ports));
-            let status: Token = status_ports.iter().map(|port| port.value(&ports)).collect();
-            let changed = trace.status.last().is_none_or(|(_, last)| *last != status);
+            let status = status_ports.iter().map(|port| port.value(&ports));
+            let changed = trace.status.last().is_none_or(|(_, last)| status.clone().ne(last.iter().copied()));
             if changed {
-                trace.status.push((cycle, status));
+                trace.status.push((cycle, status.collect()));
             }
             if rig.clock(&ports) || changed {
                 trace.longest_gap = trace.longest_gap.max(cycle + 1 - trace.cycles);

@@ -84,7 +84,7 @@ impl Triangles {
         let whole = self.pack(triangle, tag);
         match self.link.words.len() {
             0 => vec![whole],
-            words => (0..words).map(|place| self.link.word(&whole, place)).collect(),
+            words => (0..words).map(|place| self.link.word(&whole, place).collect()).collect(),
         }
     }
 

@@ -113,13 +113,12 @@ impl Link {
     }
 
     /// What stands on the ports while a word of a whole token is sent: the word, extended by its format, and what is beside it.
-    #[must_use]
-    pub fn word(&self, whole: &[u128], place: usize) -> Vec<u128> {
+    pub fn word<'a>(&self, whole: &'a [u128], place: usize) -> impl Iterator<Item = u128> + use<'a> {
         let (word, bits) = (&self.words[place], self.fields[0].width());
         let negative = word.format.is_signed() && whole[place] >> (word.width() - 1) & 1 == 1;
         let above = if negative { u128::MAX << (word.width() - 1) } else { 0 };
         let data = (whole[place] | above) & (u128::MAX >> (128 - bits));
-        std::iter::once(data).chain(whole[self.words.len()..].iter().copied()).collect()
+        std::iter::once(data).chain(whole[self.words.len()..].iter().copied())
     }
 
     /// Bits of a packed token; of one that comes word by word those of a word and what stands beside it.

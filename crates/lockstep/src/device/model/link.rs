@@ -6,12 +6,12 @@ use crate::device::tokens::Table;
 use crate::interface::{Interface, Link, Port};
 use crate::unit::Unit;
 use crate::values::{PortId, PortValues};
+use edgewalk_machine::draw::Setter;
 use edgewalk_machine::{DrawState, MemoryPort, Plan, PortVertex, Ports};
 use edgewalk_model::WordIn;
 use edgewalk_model::ports::Held;
 use edgewalk_model::tokens::Sourced;
 use edgewalk_model::word_memory::Ask;
-use std::borrow::Cow;
 use std::cell::RefCell;
 use std::ops::Range;
 
@@ -100,8 +100,16 @@ pub struct TriangleTaker {
     triangles: Triangles,
     /// The words taken of a triangle that comes word by word.
     taken: Vec<u128>,
-    /// The token that was read last, and its triangle: most tokens stand at the port for many cycles.
-    seen: RefCell<(Vec<u128>, Tagged)>,
+    seen: RefCell<Seen>,
+}
+
+/// Most tokens stand at the port for many cycles: they are unpacked once.
+struct Seen {
+    /// The token of this cycle.
+    offered: Vec<u128>,
+    /// The token that was unpacked last.
+    token: Vec<u128>,
+    triangle: Tagged,
 }
 
 /// A triangle and its tag.
@@ -113,23 +121,24 @@ impl TriangleTaker {
         let (_, link) = scope.link(takes.as_ref().map_or("", |link| link.name))?;
         let triangles =
             Triangles::of(scope.plan, link).ok_or_else(|| scope.missing("a field of a triangle"))?;
-        let nothing = vec![0; link.whole().count()];
-        let seen = RefCell::new((nothing.clone(), triangles.unpack(&nothing)));
-        Ok(TriangleTaker { link: link.clone(), triangles, taken: Vec::new(), seen })
+        let token = vec![0; link.whole().count()];
+        let seen = Seen { offered: Vec::new(), triangle: triangles.unpack(&token), token };
+        Ok(TriangleTaker { link: link.clone(), triangles, taken: Vec::new(), seen: RefCell::new(seen) })
     }
 
     /// The triangle whose last word is offered; before that one of which only the words so far are known.
-    fn whole<'p>(&self, ports: &'p PortValues) -> Cow<'p, [u128]> {
-        let ([word, beside @ ..], Some(field)) =
-            (self.link.token(ports), self.link.words.get(self.taken.len()))
-        else {
-            return Cow::Borrowed(self.link.token(ports));
-        };
-        let mut whole = self.taken.clone();
-        whole.push(word & (u128::MAX >> (128 - field.width())));
-        whole.resize(self.link.words.len(), 0);
-        whole.extend(beside);
-        Cow::Owned(whole)
+    fn whole(&self, ports: &PortValues, whole: &mut Vec<u128>) {
+        whole.clear();
+        let token = self.link.token(ports);
+        match (token, self.link.words.get(self.taken.len())) {
+            ([word, beside @ ..], Some(field)) => {
+                whole.extend(&self.taken);
+                whole.push(word & (u128::MAX >> (128 - field.width())));
+                whole.resize(self.link.words.len(), 0);
+                whole.extend(beside);
+            }
+            _ => whole.extend(token),
+        }
     }
 }
 
@@ -139,13 +148,13 @@ impl Takes<Tagged> for TriangleTaker {
         if !ports.is_high(self.link.valid) || ports.rst {
             return None;
         }
-        let whole = self.whole(ports);
-        let mut seen = self.seen.borrow_mut();
-        if *seen.0 != *whole {
-            let triangle = self.triangles.unpack(&whole);
-            *seen = (whole.into_owned(), triangle);
+        let Seen { offered, token, triangle } = &mut *self.seen.borrow_mut();
+        self.whole(ports, offered);
+        if offered != token {
+            *triangle = self.triangles.unpack(offered);
+            std::mem::swap(offered, token);
         }
-        Some(seen.1)
+        Some(*triangle)
     }
 
     fn clock(&mut self, ports: &PortValues) {
@@ -202,26 +211,26 @@ impl WordPorts {
     }
 }
 
-/// The constants.
+/// The constants, each with what sets it.
 #[derive(Clone, Debug)]
-pub struct Rules(Vec<(String, PortId)>);
+pub struct Rules(Vec<(Setter, PortId)>);
 
 impl Rules {
     /// Finds the rules among the ports of the interface.
     pub fn find(scope: Scope) -> Result<Rules, NoPlace> {
-        let constants = scope.interface.constants.iter();
-        let rules = Rules(constants.map(|port| (port.name.clone(), port.id)).collect());
-        let unknown = rules.0.iter().find(|(name, _)| !DrawState::default().set(name, 0));
-        unknown.map_or(Ok(()), |(name, _)| Err(scope.missing(name)))?;
-        Ok(rules)
+        let setter = |port: &Port| {
+            let setter = DrawState::setter(&port.name).ok_or_else(|| scope.missing(&port.name))?;
+            Ok((setter, port.id))
+        };
+        Ok(Rules(scope.interface.constants.iter().map(setter).collect::<Result<_, NoPlace>>()?))
     }
 
     /// The draw state of a cycle; a constant that the unit does not have is that of no pass.
     pub fn state(&self, ports: &PortValues) -> DrawState {
         let mut state =
             DrawState { depth_func: 0, depth_write: false, color_write: false, ..DrawState::default() };
-        for (name, port) in &self.0 {
-            state.set(name, ports[*port]);
+        for (set, port) in &self.0 {
+            set(&mut state, ports[*port]);
         }
         state
     }
