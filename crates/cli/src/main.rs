@@ -43,7 +43,7 @@ use commands::{
     bench, calibrate, compare, completions, config, demo, emit, energy, estimate, explain, gallery, judge,
     man, mutants, raster, render, replay, size, sweep, synth, trace, vectors, verify,
 };
-use edgewalk_host::needs::without_engine;
+use edgewalk_host::advice::without_engine;
 use machine_args::MachineArgs;
 use std::io::Write as _;
 use std::process::ExitCode;

@@ -20,6 +20,7 @@
 //! ```
 //! Next: crate `judge` compares the two pictures; `docs/triangle_file.md` is the format of the text.
 
+pub mod advice;
 pub mod extra;
 pub mod raster;
 pub mod light;

@@ -9,7 +9,7 @@
 //! ```
 //! 2^k is of the triangle, so that its numbers fill their words; what PROJECT divides does not see it.
 
-use crate::needs::OR_GOLDEN;
+use crate::advice::OR_GOLDEN;
 use anyhow::{Context as _, Result, anyhow};
 use edgewalk_golden::snap;
 use edgewalk_machine::keys::KEYS;

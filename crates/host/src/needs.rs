@@ -1,5 +1,6 @@
 //! What a frame asks of a machine: every key that must have another value, all of them at once.
 
+use crate::advice::{OR_GOLDEN, without_engine};
 use crate::extra;
 use crate::vertices::named;
 use anyhow::Result;
@@ -134,15 +135,6 @@ impl fmt::Display for NotMet {
 #[must_use]
 pub fn reason(error: &anyhow::Error) -> String {
     error.downcast_ref().map_or_else(|| without_engine(&format!("{error:#}")), NotMet::met_by_settings)
-}
-
-/// The end of a message about a frame that golden draws and the machine does not.
-pub const OR_GOLDEN: &str = ", or draw with --engine golden";
-
-/// A message without the advice to draw with golden, for commands that have no --engine.
-#[must_use]
-pub fn without_engine(message: &str) -> String {
-    message.replace(OR_GOLDEN, "")
 }
 
 /// BLEND, and one k_t for a triangle or more; a machine with a screen door mixes by that.

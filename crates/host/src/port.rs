@@ -1,7 +1,8 @@
 //! A frame's way to the machine's port.
 
+use crate::advice::OR_GOLDEN;
 use crate::light::{self, Map};
-use crate::needs::{self, OR_GOLDEN};
+use crate::needs;
 use crate::polygon::{self, Piece};
 use crate::raster::{Cycles, LightPass, Raster};
 use crate::shade::{Feed, feed, shading_for};

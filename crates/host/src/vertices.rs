@@ -1,7 +1,7 @@
 //! Vertices snapped to the machine's port.
 
+use crate::advice::OR_GOLDEN;
 use crate::light;
-use crate::needs::OR_GOLDEN;
 use anyhow::{Context as _, Error, Result, anyhow};
 use edgewalk_machine::{Plan, PortVertex, VertexError};
 use edgewalk_scene::{Blending, Frame, ShadeMode, State, Triangle};

@@ -1,6 +1,7 @@
 //! The exception of the module, and the way to it from errors and panics.
 
-use edgewalk_host::needs::{self, NotMet};
+use edgewalk_host::advice;
+use edgewalk_host::needs::NotMet;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -13,7 +14,7 @@ const OR_GOLDEN: &str = ", or draw with engine=\"golden\"";
 /// The exception with the whole message. Advice for the command line is put in Python's words.
 pub fn raised(error: &anyhow::Error) -> PyErr {
     let Some(NotMet { why, settings, by_golden }) = error.downcast_ref() else {
-        return Error::new_err(format!("{error:#}").replace(needs::OR_GOLDEN, OR_GOLDEN));
+        return Error::new_err(format!("{error:#}").replace(advice::OR_GOLDEN, OR_GOLDEN));
     };
     let settings: Vec<String> = settings.iter().map(|(key, value)| format!("{key:?}: {value:?}")).collect();
     let golden = if *by_golden { OR_GOLDEN } else { "" };

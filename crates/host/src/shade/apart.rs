@@ -9,7 +9,7 @@
 
 use super::bound::Proof;
 use super::lights::one_kind;
-use crate::needs::OR_GOLDEN;
+use crate::advice::OR_GOLDEN;
 use anyhow::{Result, anyhow};
 use edgewalk_machine::Plan;
 use edgewalk_scene::{Blending, Frame, Material, PixelShading};

@@ -7,7 +7,7 @@
 //! ```
 
 use super::roots;
-use crate::needs::OR_GOLDEN;
+use crate::advice::OR_GOLDEN;
 use anyhow::{Result, anyhow};
 use edgewalk_machine::Plan;
 use edgewalk_scene::{Attenuation, Light, PixelShading, PixelTriangle};

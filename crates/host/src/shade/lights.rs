@@ -1,7 +1,7 @@
 //! The lights of a frame as the machine takes them, and a triangle's six cosines of each.
 
 use super::lamp::Point;
-use crate::needs::OR_GOLDEN;
+use crate::advice::OR_GOLDEN;
 use anyhow::{Result, anyhow};
 use edgewalk_machine::Plan;
 use edgewalk_scene::{Attenuation, Light, PixelShading, PixelTriangle, Viewer};

@@ -3,7 +3,7 @@
 use super::lights::Lamp;
 use super::multiplies;
 use super::texels::Texture;
-use crate::needs::OR_GOLDEN;
+use crate::advice::OR_GOLDEN;
 use anyhow::{Result, anyhow};
 use edgewalk_machine::{Entry, Plan};
 use edgewalk_numerics::index_table::{Diffuse, Highlight, IndexTable};
