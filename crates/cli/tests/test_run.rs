@@ -239,6 +239,33 @@ impl Cached<'_> {
     }
 }
 
+/// Two that begin at once: one compiles, the other waits for what it makes.
+#[test]
+fn a_file_of_verilator_is_compiled_once_by_two_at_once() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = |name: &str| folder.path().join(name);
+    fs::create_dir(at("objects")).unwrap();
+    let compiler = "echo call >>../calls; sleep 1
+        while [ $# -gt 0 ]; do [ \"$1\" = -o ] && echo made >\"$2\"; shift; done";
+    script(&at("cc"), compiler);
+    for own in [true, false] {
+        fs::write(at("calls"), "").unwrap();
+        let runs = ["one", "two"].map(|place| {
+            fs::create_dir_all(at(place)).unwrap();
+            let mut command = Command::new(root().join("tests/objcache"));
+            let source = if own { "/share/verilator/include/verilated.cpp" } else { "Vtop.cpp" };
+            command.arg(at("cc")).args(["-O1", "-c", "-o", "it.o", source]).current_dir(at(place));
+            command.env("EDGEWALK_OBJECTS", at("objects")).spawn().unwrap()
+        });
+        for mut run in runs {
+            assert!(run.wait().unwrap().success());
+        }
+        // Of a simulation's file the header ahead of it, and the file twice.
+        let calls = fs::read_to_string(at("calls")).unwrap().lines().count();
+        assert_eq!(calls, if own { 1 } else { 3 });
+    }
+}
+
 #[test]
 fn files_of_verilator_are_compiled_once_for_the_same_options() {
     let folder = tempfile::tempdir().unwrap();
@@ -278,7 +305,7 @@ fn files_of_verilator_are_compiled_once_for_the_same_options() {
     let kept = fs::read_dir(folder.path().join("objects")).unwrap();
     let names = kept.map(|entry| entry.unwrap().file_name().into_string().unwrap());
     let unfinished: Vec<_> =
-        names.filter(|name| ![".o", ".h", ".gch"].iter().any(|end| name.ends_with(end))).collect();
+        names.filter(|name| ![".o", ".h", ".gch", ".lock"].iter().any(|end| name.ends_with(end))).collect();
     assert!(unfinished.is_empty(), "{unfinished:?}");
 }
 
@@ -306,7 +333,7 @@ fn test_programs_that_compute_little_are_not_optimised() {
     // The others are named: each name is that of a test program.
     let text = fs::read_to_string(root().join("tests/rustc")).unwrap();
     let named: Vec<_> = text.split('"').filter(|part| part.starts_with("edgewalk-")).collect();
-    assert_eq!(named.len(), 6, "{named:?}");
+    assert_eq!(named.len(), 7, "{named:?}");
     for program in named {
         let (package, name) = program.split_once(' ').expect("package and crate");
         assert_ne!(level(package, name).as_deref(), Some("0"), "{program}");
