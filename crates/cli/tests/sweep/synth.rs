@@ -25,7 +25,8 @@ fn machines_are_synthesised_once_and_stand_in_fronts() {
     std::fs::write(at.join("a.tri"), TRIANGLE).unwrap();
     let sweep = |target: &str, unit: &str, out: &str| {
         let cells = ["--synth", target, "--synth-unit", unit, "--synth-seeds", "1", "--cache", "cache"];
-        let vary = ["sweep", "a.tri", "--vary", "fifo.span=1,2", "--out", out, "--quiet"];
+        let vary =
+            ["sweep", "a.tri", "--machine", "small", "--vary", "fifo.span=1,2", "--out", out, "--quiet"];
         assert_eq!(run(at, &[&vary[..], &cells].concat()), (Some(0), String::new()));
         rows(&at.join(out))
     };
