@@ -16,7 +16,7 @@ use edgewalk_netlist::Simulator;
 pub struct Netlists(BTreeMap<&'static str, NetlistDevice<Simulator>>);
 
 impl Netlists {
-    /// Those of these units.
+    /// Builds the netlists of these units.
     pub fn of(machine: &Plan, units: impl Iterator<Item = Unit>) -> Result<Self> {
         let mut netlists = BTreeMap::new();
         for unit in units {
