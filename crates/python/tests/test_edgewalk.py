@@ -176,6 +176,18 @@ def test_bad_input_raises_the_modules_error(case):
     assert isinstance(raised.value, ValueError)
 
 
+def test_advice_to_draw_with_golden_is_in_pythons_words(tmp_path):
+    path = tmp_path / "lights.tri"
+    path.write_text(
+        "size 8 8\nmode phong\nview 0 0 1\nsun 0 0 1 0.5\nsun 0 1 1 0.2\nsun 1 0 1 0.2\nmaterial 0.1 0.5 0 1\n"
+        "T 1 1 0.5 1 1 1 0  7 1 0.5 1 1 1 0  1 5 0.5 1 1 1 0\nN 0 0 1 0 0 1 0 0 1\n"
+    )
+    machine = edgewalk.Machine(keys={"shade.kind": "phong", "shade.lights": 2})
+    with pytest.raises(edgewalk.Error, match='^3 lights: .*; leave lights out, or draw with engine="golden"$'):
+        edgewalk.raster(path, machine, engine="fast")
+    assert edgewalk.raster(path, machine, engine="golden").coverage.any()
+
+
 def test_stubs_name_what_the_module_has():
     stub = (ROOT / "crates/python/edgewalk.pyi").read_text()
     for name in ["Machine", "Picture", "Judgement", "Vectors", "Live", "Sweep"]:
