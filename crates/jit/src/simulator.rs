@@ -314,6 +314,11 @@ impl edgewalk_netlist::Simulate for Simulator {
         Simulator::value(self, signal)
     }
 
+    fn exchange(&mut self, inputs: &[(usize, InputId)], signals: &[(usize, SignalId)], values: &mut [u128]) {
+        inputs.iter().for_each(|(place, input)| self.set(*input, values[*place]));
+        signals.iter().for_each(|(place, signal)| values[*place] = self.value(*signal));
+    }
+
     fn tick(&mut self) {
         Simulator::tick(self);
     }

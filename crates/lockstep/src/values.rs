@@ -40,6 +40,11 @@ impl PortValues {
         self[port] = u128::from(value);
     }
 
+    /// Of every port, by its number.
+    pub(crate) fn all_mut(&mut self) -> &mut [u128] {
+        &mut self.values
+    }
+
     pub(crate) fn range(&self, ports: &Range<usize>) -> &[u128] {
         &self.values[ports.clone()]
     }

@@ -4,7 +4,7 @@ use super::Device;
 use crate::interface::{Interface, Port};
 use crate::rig::bits;
 use crate::unit::Unit;
-use crate::values::{PortId, PortValues};
+use crate::values::PortValues;
 use edgewalk_machine::Plan;
 use edgewalk_netlist::{BuildErrors, Netlist, Simulate, Simulator};
 use rand::SeedableRng;
@@ -28,8 +28,11 @@ pub fn netlist(plan: &Plan, unit: Unit) -> Result<Arc<Netlist>, BuildErrors> {
 pub struct NetlistDevice<S: Simulate = Simulator> {
     simulator: S,
     rst: Option<S::Input>,
-    inputs: Vec<(PortId, S::Input, u32)>,
-    outputs: Vec<(PortId, S::Signal)>,
+    /// Each with the number of its port.
+    inputs: Vec<(usize, S::Input)>,
+    /// Bits of the inputs.
+    widths: Vec<u32>,
+    outputs: Vec<(usize, S::Signal)>,
 }
 
 /// A port of the interface that the netlist does not have so.
@@ -103,7 +106,7 @@ impl<S: Simulate> NetlistDevice<S> {
             let found = place.ok_or_else(|| missing("input", &port.name))?;
             check(port, netlist.width(found.node))?;
             let input = simulator.input(&port.name).map_err(|_| missing("input", &port.name))?;
-            inputs.push((port.id, input, port.width()));
+            inputs.push((port.id.0, input));
         }
         let mut outputs = Vec::new();
         let inner = |port: &Port| format!("u_{}.{}", port.owner, port.name);
@@ -111,10 +114,11 @@ impl<S: Simulate> NetlistDevice<S> {
         for (port, path) in own.chain(interface.inner_outputs().iter().map(|port| (port, inner(port)))) {
             let signal = simulator.signal(&path).map_err(|_| missing("output", &path))?;
             check(port, simulator.width(signal))?;
-            outputs.push((port.id, signal));
+            outputs.push((port.id.0, signal));
         }
         let rst = simulator.input("rst").ok();
-        let mut device = NetlistDevice { simulator, rst, inputs, outputs };
+        let widths = interface.inputs().iter().map(Port::width).collect();
+        let mut device = NetlistDevice { simulator, rst, inputs, widths, outputs };
         device.reset();
         Ok(device)
     }
@@ -136,7 +140,7 @@ impl<S: Simulate> NetlistDevice<S> {
     pub fn disturb(&mut self, cycles: u64) {
         let mut random = Pcg64Mcg::seed_from_u64(cycles);
         for _ in 0..cycles {
-            for (_, input, width) in &self.inputs {
+            for ((_, input), width) in self.inputs.iter().zip(&self.widths) {
                 self.simulator.set(*input, bits(&mut random, *width));
             }
             self.simulator.tick();
@@ -146,12 +150,7 @@ impl<S: Simulate> NetlistDevice<S> {
     /// Drives the inputs and gives the outputs of this cycle, before the clock edge.
     pub fn settle(&mut self, ports: &mut PortValues) {
         self.set_reset(ports.rst);
-        for (port, input, _) in &self.inputs {
-            self.simulator.set(*input, ports[*port]);
-        }
-        for (port, output) in &self.outputs {
-            ports[*port] = self.simulator.value(*output);
-        }
+        self.simulator.exchange(&self.inputs, &self.outputs, ports.all_mut());
     }
 
     /// The clock edge.

@@ -33,6 +33,15 @@ pub trait Simulate {
     /// The value of a signal in this cycle.
     fn value(&mut self, signal: Self::Signal) -> u128;
 
+    /// Sets inputs and reads signals, each from or to its place among the values. It is part of the trait, so that a program
+    /// that is not optimised itself runs it as the crate of the simulator has it.
+    fn exchange(
+        &mut self,
+        inputs: &[(usize, Self::Input)],
+        signals: &[(usize, Self::Signal)],
+        values: &mut [u128],
+    );
+
     /// One rising edge of `clk`.
     fn tick(&mut self);
 }
@@ -59,6 +68,11 @@ impl Simulate for Simulator {
 
     fn value(&mut self, signal: SignalId) -> u128 {
         Simulator::value(self, signal)
+    }
+
+    fn exchange(&mut self, inputs: &[(usize, InputId)], signals: &[(usize, SignalId)], values: &mut [u128]) {
+        inputs.iter().for_each(|(place, input)| self.set(*input, values[*place]));
+        signals.iter().for_each(|(place, signal)| values[*place] = self.value(*signal));
     }
 
     fn tick(&mut self) {
