@@ -1,6 +1,6 @@
 //! The advice to draw with golden, at the end of messages about frames that the machine does not draw.
 
-/// What such a message ends with.
+/// The end of such a message.
 pub const OR_GOLDEN: &str = ", or draw with --engine golden";
 
 /// A message without the advice, for commands that have no --engine.

@@ -63,7 +63,7 @@ impl DrawState {
 }
 
 impl DrawState {
-    /// What sets the constant of that name, if there is one.
+    /// The setter of the constant of that name, if there is one.
     #[must_use]
     pub fn setter(name: &str) -> Option<Setter> {
         let setter: Setter = match name {

@@ -180,7 +180,7 @@ fn ours(args: &Args, machine: &Plan, suites: Vec<Suite>, talk: Talk) -> Result<V
     Ok(checks.concat())
 }
 
-/// What the run of a netlist beside the model came to; the replay of a difference goes into the folder `out`.
+/// The check of a netlist's run beside the model. The replay of a difference goes into the folder `out`.
 fn against_netlist(
     run: Result<Agreement, LockstepError>,
     suite: &Suite,

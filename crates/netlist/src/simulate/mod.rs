@@ -33,8 +33,8 @@ pub trait Simulate {
     /// The value of a signal in this cycle.
     fn value(&mut self, signal: Self::Signal) -> u128;
 
-    /// Sets inputs and reads signals, each from or to its place among the values. It is part of the trait, so that a program
-    /// that is not optimised itself runs it as the crate of the simulator has it.
+    /// Sets inputs and reads signals, each from or to its place among the values. Each simulator has its own code for it: a
+    /// program that is not optimised then runs the optimised code of the simulator's crate.
     fn exchange(
         &mut self,
         inputs: &[(usize, Self::Input)],

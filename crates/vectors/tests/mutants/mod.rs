@@ -77,8 +77,7 @@ fn every_fault_of_setup_is_found() {
     judge(&tallies, BLEND_LEAST);
 }
 
-/// The prover is right: of the faults that the suites see it calls none equivalent. Its time grows with the words: these are
-/// the shortest.
+/// The prover is right: of the faults that the suites see it calls none equivalent. The machine has the shortest words.
 #[test]
 fn no_fault_that_is_seen_is_proved_equivalent() {
     let machine = machine_for(common::DEPTH);

@@ -211,7 +211,7 @@ impl WordPorts {
     }
 }
 
-/// The constants, each with what sets it.
+/// The constants, each with its setter.
 #[derive(Clone, Debug)]
 pub struct Rules(Vec<(Setter, PortId)>);
 
